@@ -1,0 +1,46 @@
+// Pinhole camera with distortion and yaw: raw flow vectors to those of an ideal camera that looks
+// square to the direction of travel. Source: own design (points are undistorted before anything
+// else).
+#ifndef HOMING_FLOW_CAMERA_H_
+#define HOMING_FLOW_CAMERA_H_
+
+#include <array>
+#include <optional>
+
+#include "absl/status/status.h"
+#include "homing/flow/flow_vector.h"
+
+namespace homing {
+
+// Pixels.
+struct Intrinsics {
+  double focal_x = 0;
+  double focal_y = 0;
+  double center_x = 0;
+  double center_y = 0;
+  friend bool operator==(const Intrinsics&, const Intrinsics&) = default;
+};
+
+struct Camera {
+  // Pixels; 0: not known yet (taken from the first observation).
+  int width = 0;
+  int height = 0;
+  // Absent: everything works in raw pixels, and distortion and yaw must be zero.
+  std::optional<Intrinsics> intrinsics;
+  // k1, k2, p1, p2, k3.
+  std::array<double, 5> distortion{};
+  // Positive clockwise seen from above, (-pi/2, pi/2).
+  double yaw_rad = 0;
+  friend bool operator==(const Camera&, const Camera&) = default;
+};
+
+// INVALID_ARGUMENT naming field, value and limit.
+absl::Status Validate(const Camera& camera);
+
+// The vectors that the ideal camera of the same intrinsics would have seen. Without intrinsics: the
+// same vectors. Vectors that the ideal camera cannot see, and non-finite ones, are dropped.
+FlowField Rectify(const FlowField& raw, const Camera& camera);
+
+}  // namespace homing
+
+#endif  // HOMING_FLOW_CAMERA_H_

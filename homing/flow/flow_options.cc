@@ -1,0 +1,55 @@
+#include <cmath>
+#include <string>
+
+#include "absl/strings/str_cat.h"
+#include "homing/flow/flow_tracker.h"
+#include "homing/status_macros.h"
+
+namespace homing {
+namespace {
+
+struct Interval {
+  double low;
+  double high;
+  // Whether `low` itself is allowed.
+  bool closed = true;
+};
+
+absl::Status CheckWithin(const std::string& field, double value, const Interval& limit) {
+  if (value <= limit.high && (limit.closed ? value >= limit.low : value > limit.low)) {
+    return absl::OkStatus();
+  }
+  return absl::InvalidArgumentError(absl::StrCat("flow.", field, " ", value, " is outside ",
+                                                 limit.closed ? "[" : "(", limit.low, ", ",
+                                                 limit.high, "]"));
+}
+
+absl::Status CheckOdd(const std::string& field, int value) {
+  if (value % 2 != 0) {
+    return absl::OkStatus();
+  }
+  return absl::InvalidArgumentError(absl::StrCat("flow.", field, " ", value, " is not odd"));
+}
+
+}  // namespace
+
+absl::Status Validate(const FlowOptions& options) {
+  HOMING_RETURN_IF_ERROR(CheckWithin("working_width_px", options.working_width_px, {0, 2048}));
+  if (options.working_width_px != 0) {
+    HOMING_RETURN_IF_ERROR(CheckWithin("working_width_px", options.working_width_px, {16, 2048}));
+  }
+  HOMING_RETURN_IF_ERROR(CheckWithin("smoothing_sigma_px", options.smoothing_sigma_px, {0, 8}));
+  HOMING_RETURN_IF_ERROR(
+      CheckWithin("normalization_window_px", options.normalization_window_px, {3, 255}));
+  HOMING_RETURN_IF_ERROR(CheckOdd("normalization_window_px", options.normalization_window_px));
+  HOMING_RETURN_IF_ERROR(
+      CheckWithin("normalization_floor", options.normalization_floor, {0, 64, false}));
+  HOMING_RETURN_IF_ERROR(CheckWithin("min_eigenvalue", options.min_eigenvalue, {0, 10, false}));
+  HOMING_RETURN_IF_ERROR(CheckWithin("cell_px", options.cell_px, {1, 64}));
+  HOMING_RETURN_IF_ERROR(CheckWithin("window_px", options.window_px, {5, 63}));
+  HOMING_RETURN_IF_ERROR(CheckOdd("window_px", options.window_px));
+  HOMING_RETURN_IF_ERROR(CheckWithin("pyramid_levels", options.pyramid_levels, {0, 6}));
+  return CheckWithin("max_forward_backward_px", options.max_forward_backward_px, {0, 5, false});
+}
+
+}  // namespace homing

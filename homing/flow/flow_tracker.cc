@@ -1,0 +1,134 @@
+#include "homing/flow/flow_tracker.h"
+
+#include <algorithm>
+#include <opencv2/video/tracking.hpp>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "absl/strings/str_cat.h"
+#include "homing/flow/corner_detector.h"
+#include "homing/flow/working_image.h"
+
+namespace homing {
+namespace {
+
+// Lucas-Kanade iterations a level, and the step below which they end, working pixels.
+constexpr int kIterations = 20;
+constexpr double kConvergencePx = 0.01;
+// Least eigenvalue of A^T A for a solution (eqs 3 to 5), OpenCV's units; corners have far more.
+constexpr double kSingular = 1e-4;
+
+// All that is kept of a frame: the pyramid of eq 1's images, with gradients, and its corners.
+struct TrackedFrame {
+  cv::Size source_size;
+  WorkingScale scale;
+  std::vector<cv::Mat> pyramid;
+  std::vector<cv::Point2f> corners;
+};
+
+TrackedFrame Prepare(const cv::Mat& gray, const FlowOptions& options) {
+  const cv::Mat normalized = NormalizedImage(gray, options);
+  TrackedFrame frame;
+  frame.source_size = gray.size();
+  frame.scale = {double(normalized.cols) / gray.cols, double(normalized.rows) / gray.rows};
+  frame.corners = DetectCorners(normalized, options, std::max(1.0, frame.scale.x));
+  cv::Mat levels;
+  normalized.convertTo(levels, CV_8U, kLevelsPerDeviation, 128);
+  const cv::Size window(options.window_px, options.window_px);
+  cv::buildOpticalFlowPyramid(levels, frame.pyramid, window, options.pyramid_levels, true,
+                              cv::BORDER_REFLECT_101, cv::BORDER_CONSTANT, false);
+  return frame;
+}
+
+// Where points of one frame are in another, and which were found.
+struct Tracks {
+  std::vector<cv::Point2f> ends;
+  std::vector<unsigned char> found;
+};
+
+Tracks TrackPoints(const TrackedFrame& from, const TrackedFrame& to,
+                   const std::vector<cv::Point2f>& points, const FlowOptions& options) {
+  Tracks tracks;
+  std::vector<float> unused_error;
+  const cv::Size window(options.window_px, options.window_px);
+  const cv::TermCriteria end(cv::TermCriteria::COUNT | cv::TermCriteria::EPS, kIterations,
+                             kConvergencePx);
+  cv::calcOpticalFlowPyrLK(from.pyramid, to.pyramid, points, tracks.ends, tracks.found,
+                           unused_error, window, options.pyramid_levels, end, 0, kSingular);
+  return tracks;
+}
+
+FlowVector SourceVector(const WorkingScale& scale, const cv::Point2f& start,
+                        const cv::Point2f& end) {
+  const cv::Point2d from = scale.ToSource(start);
+  const cv::Point2d to = scale.ToSource(end);
+  return {static_cast<float>(from.x), static_cast<float>(from.y), static_cast<float>(to.x),
+          static_cast<float>(to.y)};
+}
+
+// Both ends on the image's area; false for anything non-finite.
+bool IsInside(const FlowVector& v, const cv::Size& size) {
+  const auto inside = [](float p, int side) { return p >= -0.5F && p < float(side) - 0.5F; };
+  return inside(v.start_x, size.width) && inside(v.start_y, size.height) &&
+         inside(v.end_x, size.width) && inside(v.end_y, size.height);
+}
+
+// Eqs 1 to 5 for the corners of `before`, forward and back again.
+FlowField FlowBetween(const TrackedFrame& before, const TrackedFrame& now,
+                      const FlowOptions& options) {
+  FlowField field{now.source_size.width, now.source_size.height, {}};
+  if (before.corners.empty()) {
+    return field;
+  }
+  const Tracks forward = TrackPoints(before, now, before.corners, options);
+  const Tracks backward = TrackPoints(now, before, forward.ends, options);
+  for (std::size_t i = 0; i < before.corners.size(); ++i) {
+    if (forward.found[i] == 0 || backward.found[i] == 0) {
+      continue;
+    }
+    const FlowVector miss = SourceVector(before.scale, before.corners[i], backward.ends[i]);
+    const FlowVector v = SourceVector(before.scale, before.corners[i], forward.ends[i]);
+    if (miss.Length() <= options.max_forward_backward_px && IsInside(v, now.source_size)) {
+      field.vectors.push_back(v);
+    }
+  }
+  return field;
+}
+
+}  // namespace
+
+struct FlowTracker::State {
+  FlowOptions options;
+  std::optional<TrackedFrame> before;
+};
+
+FlowTracker::FlowTracker(const FlowOptions& options) : state_(std::make_unique<State>()) {
+  state_->options = options;
+}
+FlowTracker::FlowTracker(FlowTracker&&) noexcept = default;
+FlowTracker& FlowTracker::operator=(FlowTracker&&) noexcept = default;
+FlowTracker::~FlowTracker() = default;
+
+absl::StatusOr<std::optional<FlowField>> FlowTracker::Track(const cv::Mat& gray) {
+  std::optional<TrackedFrame>& before = state_->before;
+  if (gray.type() != CV_8UC1 || gray.empty()) {
+    return absl::InvalidArgumentError("frame is not a grey image of 8 bits");
+  }
+  if (before.has_value() && before->source_size != gray.size()) {
+    return absl::InvalidArgumentError(absl::StrCat(
+        "frame of ", gray.cols, " x ", gray.rows, " px differs from the frame before of ",
+        before->source_size.width, " x ", before->source_size.height, " px"));
+  }
+  TrackedFrame now = Prepare(gray, state_->options);
+  std::optional<FlowField> field;
+  if (before.has_value()) {
+    field = FlowBetween(*before, now, state_->options);
+  }
+  before = std::move(now);
+  return field;
+}
+
+void FlowTracker::Reset() { state_->before.reset(); }
+
+}  // namespace homing

@@ -1,0 +1,70 @@
+// Frames of one camera to flow vectors: locally normalised and smoothed image, Shi-Tomasi corners
+// with an absolute threshold, pyramidal Lucas-Kanade, forward-backward check.
+// Source: paper II-B, eqs 1 to 5; normalisation, smoothing and cell-wise suppression: own design.
+#ifndef HOMING_FLOW_FLOW_TRACKER_H_
+#define HOMING_FLOW_FLOW_TRACKER_H_
+
+#include <memory>
+#include <opencv2/core.hpp>
+#include <optional>
+
+#include "absl/status/statusor.h"
+#include "homing/flow/flow_vector.h"
+
+namespace homing {
+
+// Change what is stored: they are kept with the journey. Lengths are pixels of the working image
+// unless named source. Defaults chosen by measurement.
+struct FlowOptions {
+  // Images are resized to this width before anything else (never more than doubled), so that all
+  // other lengths follow the image's size. 0: as they come. [0, 2048].
+  int working_width_px = 320;
+  // Gaussian smoothing, sigma; in SOURCE pixels where the image is enlarged, since noise grows with
+  // it: in noise, corners and tracks drown. 0: none. [0, 8].
+  double smoothing_sigma_px = 1.0;
+  // Side of the square of local mean and deviation. [3, 255], odd.
+  int normalization_window_px = 45;
+  // Added to the local deviation (grey levels): walls without texture stay blank. (0, 64].
+  double normalization_floor = 3.0;
+  // Least minimum eigenvalue of the mean gradient matrix of the normalised image, local deviations
+  // squared over px^2 (absolute, eq 3); SOURCE pixels where the image is enlarged. (0, 10].
+  double min_eigenvalue = 0.02;
+  // Non-maximum suppression: one best corner in a cell of this side. [1, 64].
+  int cell_px = 8;
+  // Lucas-Kanade window side (eq 2). [5, 63], odd.
+  int window_px = 17;
+  // Pyramid levels above the base. [0, 6].
+  int pyramid_levels = 3;
+  // A vector must come back to within this many SOURCE pixels. (0, 5].
+  double max_forward_backward_px = 0.7;
+  friend bool operator==(const FlowOptions&, const FlowOptions&) = default;
+};
+
+// INVALID_ARGUMENT naming field, value and limit.
+absl::Status Validate(const FlowOptions& options);
+
+// One camera's tracker. Keeps the pyramid of the last frame only. Not thread-safe; moveable.
+class FlowTracker {
+ public:
+  // REQUIRES: Validate(options).ok().
+  explicit FlowTracker(const FlowOptions& options);
+  FlowTracker(FlowTracker&&) noexcept;
+  FlowTracker& operator=(FlowTracker&&) noexcept;
+  ~FlowTracker();
+
+  // `gray` is CV_8UC1. The field between the frame before and this one, in source pixels, short
+  // vectors included, in a deterministic order; nothing for the first frame after Reset.
+  // INVALID_ARGUMENT: a size other than the frame before's.
+  absl::StatusOr<std::optional<FlowField>> Track(const cv::Mat& gray);
+
+  // Forgets the last frame: no vector spans this point.
+  void Reset();
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace homing
+
+#endif  // HOMING_FLOW_FLOW_TRACKER_H_

@@ -1,0 +1,31 @@
+// The flow that a turning camera sees: it does not depend on how far things are, so three numbers
+// explain all of it. Source: own design, after the flow of a rigid rotation.
+#ifndef HOMING_FLOW_ROTATION_FIT_H_
+#define HOMING_FLOW_ROTATION_FIT_H_
+
+#include "homing/flow/camera.h"
+#include "homing/flow/flow_vector.h"
+
+namespace homing {
+
+// Robust fit of a rotation to one camera's vectors.
+struct RotationFit {
+  // Pan (things move to higher x), radians a step, from both components of the flow.
+  double pan = 0;
+  // Pan from the vertical components alone, and its standard error: sideways motion past anything
+  // has none, a turn has.
+  double vertical_pan = 0;
+  double vertical_pan_error = 0;
+  // Share of the vectors that the rotation explains. [0, 1].
+  double explained = 0;
+  // Pixels.
+  double median_residual = 0;
+  double median_length = 0;
+};
+
+// REQUIRES: at least 3 vectors. Without intrinsics a field of view of 60 degrees is assumed.
+RotationFit FitRotation(const FlowField& field, const Camera& camera);
+
+}  // namespace homing
+
+#endif  // HOMING_FLOW_ROTATION_FIT_H_

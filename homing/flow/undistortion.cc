@@ -1,0 +1,62 @@
+#include "homing/flow/undistortion.h"
+
+#include <Eigen/LU>
+
+namespace homing {
+namespace {
+
+constexpr int kMaxIterations = 30;
+// Far below a float pixel, focal lengths being under 1e6 px.
+constexpr double kTolerance = 1e-11;
+
+// 1 + k1 r2 + k2 r2^2 + k3 r2^3, and its derivative by r2.
+struct Radial {
+  double factor;
+  double slope;
+};
+
+Radial RadialAt(double r2, const Distortion& d) {
+  return {1 + r2 * (d[0] + r2 * (d[1] + r2 * d[4])), d[0] + r2 * (2 * d[1] + r2 * 3 * d[4])};
+}
+
+Eigen::Matrix2d JacobianAt(const Eigen::Vector2d& ray, const Distortion& d) {
+  const double x = ray.x();
+  const double y = ray.y();
+  const Radial radial = RadialAt(ray.squaredNorm(), d);
+  const double cross = 2 * x * y * radial.slope + 2 * d[2] * x + 2 * d[3] * y;
+  Eigen::Matrix2d jacobian;
+  jacobian << radial.factor + 2 * x * x * radial.slope + 2 * d[2] * y + 6 * d[3] * x, cross,  //
+      cross, radial.factor + 2 * y * y * radial.slope + 6 * d[2] * y + 2 * d[3] * x;
+  return jacobian;
+}
+
+}  // namespace
+
+Eigen::Vector2d Distort(const Eigen::Vector2d& ray, const Distortion& d) {
+  const double x = ray.x();
+  const double y = ray.y();
+  const double r2 = ray.squaredNorm();
+  const double factor = RadialAt(r2, d).factor;
+  return {x * factor + 2 * d[2] * x * y + d[3] * (r2 + 2 * x * x),
+          y * factor + d[2] * (r2 + 2 * y * y) + 2 * d[3] * x * y};
+}
+
+std::optional<Eigen::Vector2d> Undistort(const Eigen::Vector2d& shown,
+                                         const Distortion& distortion) {
+  Eigen::Vector2d ray = shown;
+  for (int i = 0; i < kMaxIterations; ++i) {
+    const Eigen::Vector2d miss = Distort(ray, distortion) - shown;
+    const Eigen::Matrix2d jacobian = JacobianAt(ray, distortion);
+    // Not positive: beyond the fold of the model, where two rays would be shown at one point.
+    if (!(jacobian.determinant() > 0)) {
+      return std::nullopt;
+    }
+    if (miss.norm() < kTolerance) {
+      return ray;
+    }
+    ray -= jacobian.inverse() * miss;
+  }
+  return std::nullopt;
+}
+
+}  // namespace homing

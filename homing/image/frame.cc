@@ -1,0 +1,43 @@
+#include "homing/image/frame.h"
+
+#include <new>
+#include <string>
+
+#include "absl/strings/str_cat.h"
+#include "homing/image/jpeg_decoder.h"
+#include "homing/image/png_decoder.h"
+#include "homing/image/raw_decoder.h"
+
+namespace homing {
+namespace {
+
+absl::StatusOr<cv::Mat> Decode(const Frame& frame, const DecodeLimits& limits) {
+  switch (frame.encoding) {
+    case FrameEncoding::kGray8:
+    case FrameEncoding::kRgb8:
+    case FrameEncoding::kBgr8:
+      return DecodeRaw(frame, limits);
+    case FrameEncoding::kJpeg:
+      return DecodeJpeg(frame, limits);
+    case FrameEncoding::kPng:
+      return DecodePng(frame, limits);
+  }
+  return absl::InvalidArgumentError(absl::StrCat("frame.encoding ",
+                                                 static_cast<int>(frame.encoding),
+                                                 " is not one of GRAY8, RGB8, BGR8, JPEG, PNG"));
+}
+
+}  // namespace
+
+absl::StatusOr<cv::Mat> DecodeGray(const Frame& frame, const DecodeLimits& limits) {
+  // OpenCV throws when memory runs out; no exception leaves this folder.
+  try {
+    return Decode(frame, limits);
+  } catch (const cv::Exception& error) {
+    return absl::ResourceExhaustedError(absl::StrCat("frame could not be decoded: ", error.err));
+  } catch (const std::bad_alloc&) {
+    return absl::ResourceExhaustedError("no memory to decode the frame");
+  }
+}
+
+}  // namespace homing

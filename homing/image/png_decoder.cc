@@ -1,0 +1,73 @@
+#include "homing/image/png_decoder.h"
+
+#include <spng.h>
+
+#include <memory>
+#include <opencv2/imgproc.hpp>
+#include <string>
+
+#include "absl/strings/str_cat.h"
+#include "homing/image/dimensions.h"
+#include "homing/status_macros.h"
+
+namespace homing {
+namespace {
+
+// Ancillary chunks (text, profiles) may inflate to this many bytes together.
+constexpr std::size_t kChunkBytes = 1 << 20;
+
+struct ContextCloser {
+  void operator()(spng_ctx* context) const { spng_ctx_free(context); }
+};
+using Context = std::unique_ptr<spng_ctx, ContextCloser>;
+
+absl::Status PngError(int code) {
+  return absl::InvalidArgumentError(
+      absl::StrCat("frame.data is no complete PNG image: ", spng_strerror(code)));
+}
+
+// Pixels of `format`, 8 bits a channel, in `type`; then everything up to the end of the file.
+absl::StatusOr<cv::Mat> DecodePixels(spng_ctx* context, const spng_ihdr& header, spng_format format,
+                                     int type) {
+  cv::Mat pixels(static_cast<int>(header.height), static_cast<int>(header.width), type);
+  const std::size_t length = pixels.total() * pixels.elemSize();
+  if (const int code = spng_decode_image(context, pixels.data, length, format, 0); code != 0) {
+    return PngError(code);
+  }
+  if (const int code = spng_decode_chunks(context); code != 0) {
+    return PngError(code);
+  }
+  return pixels;
+}
+
+}  // namespace
+
+absl::StatusOr<cv::Mat> DecodePng(const Frame& frame, const DecodeLimits& limits) {
+  const Context context(spng_ctx_new(0));
+  if (context == nullptr) {
+    return absl::InternalError("no PNG decoder could be made");
+  }
+  spng_set_chunk_limits(context.get(), kChunkBytes, kChunkBytes);
+  spng_ihdr header{};
+  int code = spng_set_png_buffer(context.get(), frame.data.data(), frame.data.size());
+  if (code == 0) {
+    code = spng_get_ihdr(context.get(), &header);
+  }
+  if (code != 0) {
+    return PngError(code);
+  }
+  const Dimensions dimensions{header.width, header.height};
+  HOMING_RETURN_IF_ERROR(CheckLimits(dimensions, limits));
+  HOMING_RETURN_IF_ERROR(CheckDeclared(frame, dimensions));
+  // Deep grey, colour, palette and alpha all become RGB8 first; alpha is dropped.
+  if (header.color_type == SPNG_COLOR_TYPE_GRAYSCALE && header.bit_depth <= 8) {
+    return DecodePixels(context.get(), header, SPNG_FMT_G8, CV_8UC1);
+  }
+  HOMING_ASSIGN_OR_RETURN(const cv::Mat color,
+                          DecodePixels(context.get(), header, SPNG_FMT_RGB8, CV_8UC3));
+  cv::Mat gray;
+  cv::cvtColor(color, gray, cv::COLOR_RGB2GRAY);
+  return gray;
+}
+
+}  // namespace homing

@@ -1,0 +1,17 @@
+// PNG bytes to grey. Source: own design.
+#ifndef HOMING_IMAGE_PNG_DECODER_H_
+#define HOMING_IMAGE_PNG_DECODER_H_
+
+#include <opencv2/core.hpp>
+
+#include "absl/status/statusor.h"
+#include "homing/image/frame.h"
+
+namespace homing {
+
+// As DecodeGray, for this encoding only.
+absl::StatusOr<cv::Mat> DecodePng(const Frame& frame, const DecodeLimits& limits);
+
+}  // namespace homing
+
+#endif  // HOMING_IMAGE_PNG_DECODER_H_

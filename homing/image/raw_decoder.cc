@@ -1,0 +1,33 @@
+#include "homing/image/raw_decoder.h"
+
+#include <opencv2/imgproc.hpp>
+
+#include "absl/strings/str_cat.h"
+#include "homing/image/dimensions.h"
+#include "homing/status_macros.h"
+
+namespace homing {
+
+absl::StatusOr<cv::Mat> DecodeRaw(const Frame& frame, const DecodeLimits& limits) {
+  HOMING_RETURN_IF_ERROR(CheckLimits({frame.width, frame.height}, limits));
+  const bool gray = frame.encoding == FrameEncoding::kGray8;
+  const std::size_t expected = static_cast<std::size_t>(frame.width) *
+                               static_cast<std::size_t>(frame.height) * (gray ? 1U : 3U);
+  if (frame.data.size() != expected) {
+    return absl::InvalidArgumentError(absl::StrCat("frame.data has ", frame.data.size(), " bytes, ",
+                                                   frame.width, " x ", frame.height,
+                                                   gray ? " x 1" : " x 3", " needs ", expected));
+  }
+  // cv::Mat takes no pointer to const; the view is only read.
+  void* bytes = const_cast<char*>(frame.data.data());
+  const cv::Mat view(frame.height, frame.width, gray ? CV_8UC1 : CV_8UC3, bytes);
+  if (gray) {
+    return view.clone();
+  }
+  cv::Mat result;
+  const bool rgb = frame.encoding == FrameEncoding::kRgb8;
+  cv::cvtColor(view, result, rgb ? cv::COLOR_RGB2GRAY : cv::COLOR_BGR2GRAY);
+  return result;
+}
+
+}  // namespace homing

@@ -1,0 +1,133 @@
+#include "homing/journey/journey_map.h"
+
+#include <cmath>
+
+#include "absl/strings/str_cat.h"
+#include "homing/range_check.h"
+#include "homing/status_macros.h"
+
+namespace homing {
+namespace {
+
+// Paper III: two a camera.
+constexpr int kMostFingerprintsPerSide = 2;
+
+absl::Status CheckValues(const Fingerprint& f) {
+  if (f.count <= 0) {
+    return absl::InvalidArgumentError(
+        absl::StrCat("count of landmark ", f.landmark, " is ", f.count, ", must be positive"));
+  }
+  if (!std::isfinite(f.x) || !std::isfinite(f.y)) {
+    return absl::InvalidArgumentError(absl::StrCat("mean of landmark ", f.landmark, " is (", f.x,
+                                                   ", ", f.y, "), must be finite"));
+  }
+  return absl::OkStatus();
+}
+
+absl::Status CheckOrder(const std::vector<RecordedFingerprint>& fingerprints) {
+  std::array<int, 2> on_side{};
+  for (const RecordedFingerprint& recorded : fingerprints) {
+    if (recorded.side == Side::kLeft && on_side[1] > 0) {
+      return absl::InvalidArgumentError("fingerprints: right before left, must be left first");
+    }
+    if (++on_side[static_cast<std::size_t>(recorded.side)] > kMostFingerprintsPerSide) {
+      return absl::InvalidArgumentError(absl::StrCat(
+          "fingerprints: over ", kMostFingerprintsPerSide, " on one side, must be at most that"));
+    }
+  }
+  return absl::OkStatus();
+}
+
+}  // namespace
+
+absl::Status JourneyMap::CheckLandmark(const JourneyStep& step, std::size_t index,
+                                       std::size_t known) const {
+  const RecordedFingerprint& recorded = step.fingerprints[index];
+  const std::int32_t landmark = recorded.fingerprint.landmark;
+  if (landmark < 0 || static_cast<std::size_t>(landmark) > known) {
+    return absl::InvalidArgumentError(
+        absl::StrCat("landmark is ", landmark, ", must be known or next, in [0, ", known, "]"));
+  }
+  for (std::size_t i = 0; i < index; ++i) {
+    if (step.fingerprints[i].fingerprint.landmark == landmark) {
+      return absl::InvalidArgumentError(
+          absl::StrCat("landmark ", landmark, " is twice in step ", step.step));
+    }
+  }
+  const auto number = static_cast<std::size_t>(landmark);
+  if (number < landmarks_.size() && landmarks_[number].side != recorded.side) {
+    return absl::InvalidArgumentError(absl::StrCat("side of landmark ", landmark, " in step ",
+                                                   step.step, " is not the side it was met on"));
+  }
+  return CheckRange("spread", recorded.spread, 0.0, 1e9);
+}
+
+absl::Status JourneyMap::Check(const JourneyStep& step) const {
+  HOMING_RETURN_IF_ERROR(CheckRange("step", step.step, step_count(), kMostSteps - 1));
+  HOMING_RETURN_IF_ERROR(CheckOrder(step.fingerprints));
+  std::size_t known = landmarks_.size();
+  for (std::size_t i = 0; i < step.fingerprints.size(); ++i) {
+    HOMING_RETURN_IF_ERROR(CheckValues(step.fingerprints[i].fingerprint));
+    HOMING_RETURN_IF_ERROR(CheckLandmark(step, i, known));
+    if (static_cast<std::size_t>(step.fingerprints[i].fingerprint.landmark) == known) {
+      ++known;
+    }
+  }
+  return absl::OkStatus();
+}
+
+void JourneyMap::CountIn(std::int64_t step, const RecordedFingerprint& recorded) {
+  const auto number = static_cast<std::size_t>(recorded.fingerprint.landmark);
+  if (number == landmarks_.size()) {
+    landmarks_.push_back({.side = recorded.side, .first_step = step});
+  }
+  Landmark& landmark = landmarks_[number];
+  landmark.last_step = step;
+  ++landmark.fingerprint_count;
+  // Running mean: resumes exactly from what is stored.
+  landmark.spread += (recorded.spread - landmark.spread) / landmark.fingerprint_count;
+}
+
+absl::Status JourneyMap::Append(const JourneyStep& step) {
+  HOMING_RETURN_IF_ERROR(Check(step));
+  ExtendTo(step.step + 1);
+  for (const RecordedFingerprint& recorded : step.fingerprints) {
+    CountIn(step.step, recorded);
+    fingerprints_.push_back(recorded.fingerprint);
+  }
+  for (const Side side : {Side::kLeft, Side::kRight}) {
+    if (const auto& profile = step.profiles[static_cast<std::size_t>(side)]) {
+      set_profile(step.step, side, *profile);
+    }
+  }
+  return absl::OkStatus();
+}
+
+void JourneyMap::ExtendTo(std::int64_t step_count) {
+  if (step_count > this->step_count()) {
+    step_begin_.resize(static_cast<std::size_t>(step_count),
+                       static_cast<std::int64_t>(fingerprints_.size()));
+    for (std::vector<FlowProfile>& profiles : profiles_) {
+      if (!profiles.empty()) profiles.resize(step_begin_.size());
+    }
+  }
+}
+
+void JourneyMap::set_profile(std::int64_t step, Side side, const FlowProfile& profile) {
+  if (profile == FlowProfile{}) {
+    return;
+  }
+  std::vector<FlowProfile>& profiles = profiles_[static_cast<std::size_t>(side)];
+  profiles.resize(step_begin_.size());
+  profiles[static_cast<std::size_t>(step)] = profile;
+}
+
+std::span<const Fingerprint> JourneyMap::fingerprints(std::int64_t step) const {
+  const auto index = static_cast<std::size_t>(step);
+  const auto begin = static_cast<std::size_t>(step_begin_[index]);
+  const auto end = index + 1 < step_begin_.size() ? static_cast<std::size_t>(step_begin_[index + 1])
+                                                  : fingerprints_.size();
+  return std::span<const Fingerprint>(fingerprints_).subspan(begin, end - begin);
+}
+
+}  // namespace homing

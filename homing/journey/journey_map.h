@@ -1,0 +1,110 @@
+// The topological map of one journey: fingerprints by step and side, landmarks in the order met
+// (paper III). No image is in it.
+#ifndef HOMING_JOURNEY_JOURNEY_MAP_H_
+#define HOMING_JOURNEY_JOURNEY_MAP_H_
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "absl/status/status.h"
+#include "homing/flow/motion.h"
+#include "homing/flow/observation.h"
+#include "homing/journey/journey_settings.h"
+#include "homing/landmark/fingerprint.h"
+#include "homing/landmark/flow_profile.h"
+
+namespace homing {
+
+// A landmark as counted along the journey.
+struct Landmark {
+  Side side = Side::kLeft;
+  std::int64_t first_step = 0;
+  std::int64_t last_step = 0;
+  std::int32_t fingerprint_count = 0;
+  // Mean over its steps of the relative spread of magnitudes.
+  double spread = 0;
+  friend bool operator==(const Landmark&, const Landmark&) = default;
+};
+
+// One fingerprint of one step, as recorded.
+struct RecordedFingerprint {
+  Side side = Side::kLeft;
+  Fingerprint fingerprint;
+  double spread = 0;
+  friend bool operator==(const RecordedFingerprint&, const RecordedFingerprint&) = default;
+};
+
+// One step of a journey. Without fingerprints when standing, turning, at a break, or nothing was
+// seen.
+struct JourneyStep {
+  // From 0, home first.
+  std::int64_t step = 0;
+  Motion motion = Motion::kMoving;
+  // Left before right, low x before high x; at most four.
+  std::vector<RecordedFingerprint> fingerprints;
+  // Indexed by Side of the route; empty where no camera looked.
+  std::array<std::optional<FlowProfile>, 2> profiles{};
+  friend bool operator==(const JourneyStep&, const JourneyStep&) = default;
+};
+
+// Most steps of a journey: 46 days at five observations a second. Bounds what a damaged map claims.
+inline constexpr std::int64_t kMostSteps = 20'000'000;
+
+// Not thread-safe: the holder locks. 16 bytes a fingerprint, 8 a step, 96 a profile.
+class JourneyMap {
+ public:
+  JourneyMap() = default;
+  explicit JourneyMap(JourneySettings settings) : settings_(std::move(settings)) {}
+
+  // INVALID_ARGUMENT: `step` is not step_count() or further on (steps between are empty), a
+  // landmark that is neither known nor next or twice in the step, a side unlike the landmark's, a
+  // count not positive, a non-finite mean, over two fingerprints a side, right before left. After
+  // an error the map is as before.
+  absl::Status Append(const JourneyStep& step);
+  // Adds empty steps at the end until there are `step_count`. REQUIRES: step_count <= kMostSteps.
+  void ExtendTo(std::int64_t step_count);
+
+  const JourneySettings& settings() const { return settings_; }
+  JourneySettings& mutable_settings() { return settings_; }
+  std::int64_t step_count() const { return static_cast<std::int64_t>(step_begin_.size()); }
+  // Fingerprints of one step, left side first. REQUIRES: 0 <= step < step_count().
+  std::span<const Fingerprint> fingerprints(std::int64_t step) const;
+  std::span<const Fingerprint> all_fingerprints() const { return fingerprints_; }
+  // Of each step, all 0 where it has none; empty if no step of this side has any.
+  std::span<const FlowProfile> profiles(Side side) const {
+    return profiles_[static_cast<std::size_t>(side)];
+  }
+  // One that is all 0 is none. REQUIRES: 0 <= step < step_count().
+  void set_profile(std::int64_t step, Side side, const FlowProfile& profile);
+  // Indexed by landmark number.
+  const std::vector<Landmark>& landmarks() const { return landmarks_; }
+  Side side_of(const Fingerprint& f) const {
+    return landmarks_[static_cast<std::size_t>(f.landmark)].side;
+  }
+
+  // The mean spread of one landmark as it was stored. REQUIRES: a known landmark.
+  void set_spread(std::int32_t landmark, double spread) {
+    landmarks_[static_cast<std::size_t>(landmark)].spread = spread;
+  }
+
+ private:
+  absl::Status Check(const JourneyStep& step) const;
+  // Of the fingerprint at `index`, with landmarks below `known` met by then.
+  absl::Status CheckLandmark(const JourneyStep& step, std::size_t index, std::size_t known) const;
+  void CountIn(std::int64_t step, const RecordedFingerprint& recorded);
+
+  JourneySettings settings_;
+  std::vector<Fingerprint> fingerprints_;
+  // Index of each step's first fingerprint.
+  std::vector<std::int64_t> step_begin_;
+  std::vector<Landmark> landmarks_;
+  std::array<std::vector<FlowProfile>, 2> profiles_;
+};
+
+}  // namespace homing
+
+#endif  // HOMING_JOURNEY_JOURNEY_MAP_H_

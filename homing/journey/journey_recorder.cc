@@ -1,0 +1,115 @@
+#include "homing/journey/journey_recorder.h"
+
+#include <algorithm>
+
+#include "absl/strings/str_cat.h"
+#include "homing/flow/motion.h"
+#include "homing/journey/camera_pair.h"
+#include "homing/landmark/landmark_finder.h"
+#include "homing/status_macros.h"
+
+namespace homing {
+namespace {
+
+InputKind KindOf(const CameraView& view) {
+  if (std::holds_alternative<Frame>(view)) {
+    return InputKind::kFrames;
+  }
+  return std::holds_alternative<FlowField>(view) ? InputKind::kFlowVectors : InputKind::kUnknown;
+}
+
+const char* NameOf(InputKind kind) {
+  return kind == InputKind::kFrames ? "frames" : "flow vectors";
+}
+
+}  // namespace
+
+absl::StatusOr<InputKind> InputKindOf(const Observation& observation) {
+  const InputKind left = KindOf(observation.views[0]);
+  const InputKind right = KindOf(observation.views[1]);
+  if (left == InputKind::kUnknown && right == InputKind::kUnknown) {
+    return absl::InvalidArgumentError(
+        absl::StrCat("observation ", observation.sequence, " has no camera, must have at least 1"));
+  }
+  if (left != InputKind::kUnknown && right != InputKind::kUnknown && left != right) {
+    return absl::InvalidArgumentError(absl::StrCat(
+        "observation ", observation.sequence, " has frames and flow vectors, must have one kind"));
+  }
+  return std::max(left, right);
+}
+
+std::int64_t LookBack(InputKind kind) { return kind == InputKind::kFrames ? 1 : 0; }
+
+std::optional<std::int64_t> StepOf(InputKind kind, std::int64_t sequence) {
+  const std::int64_t step = sequence - LookBack(kind);
+  return step < 0 ? std::nullopt : std::optional(step);
+}
+
+JourneyRecorder::JourneyRecorder(const JourneySettings& settings, const DecodeLimits& limits)
+    : settings_(settings), flow_(settings.flow, limits), tracker_(settings.landmark) {}
+
+void JourneyRecorder::Resume(const JourneyMap& map) {
+  settings_ = map.settings();
+  next_step_ = map.step_count();
+  tracker_ = LandmarkTracker(settings_.landmark);
+  const std::int64_t look_back = settings_.landmark.max_track_gap_steps + 1;
+  for (std::int64_t step = std::max<std::int64_t>(0, next_step_ - look_back); step < next_step_;
+       ++step) {
+    for (const Fingerprint& fingerprint : map.fingerprints(step)) {
+      tracker_.Restore(step, map.side_of(fingerprint), fingerprint);
+    }
+  }
+  tracker_.set_landmark_count(static_cast<int>(map.landmarks().size()));
+}
+
+absl::Status JourneyRecorder::CheckKind(InputKind kind) const {
+  if (kind_ == InputKind::kUnknown || kind_ == kind) {
+    return absl::OkStatus();
+  }
+  return absl::InvalidArgumentError(
+      absl::StrCat("observation has ", NameOf(kind), ", must have the journey's ", NameOf(kind_)));
+}
+
+absl::StatusOr<std::optional<JourneyStep>> JourneyRecorder::Record(const Observation& observation) {
+  HOMING_ASSIGN_OR_RETURN(const InputKind kind, InputKindOf(observation));
+  HOMING_RETURN_IF_ERROR(CheckKind(kind));
+  // II-B, equations (1) to (5): corners, and their flow since the frame before.
+  HOMING_ASSIGN_OR_RETURN(ObservedFlow flow, flow_.Compute(observation, settings_.cameras));
+  flow_.FillSizes(settings_.cameras);
+  kind_ = kind;
+  const std::optional<std::int64_t> number = StepOf(kind, observation.sequence);
+  if (!number || *number < next_step_) {
+    return std::nullopt;
+  }
+  // Own design: what an ideal camera, square to the direction of travel, would have seen.
+  flow = Rectify(flow, settings_.cameras);
+  JourneyStep step{.step = *number,
+                   .motion = ClassifyMotion(flow, settings_.cameras),
+                   .fingerprints = {},
+                   .profiles = {}};
+  if (step.motion == Motion::kMoving) {
+    for (const Side side : {Side::kLeft, Side::kRight}) {
+      AddLandmarks(side, flow.fields[static_cast<std::size_t>(side)], step);
+    }
+  }
+  next_step_ = *number + 1;
+  return step;
+}
+
+void JourneyRecorder::AddLandmarks(Side side, const std::optional<FlowField>& field,
+                                   JourneyStep& step) {
+  if (!field) {
+    return;
+  }
+  // Own design: where the vectors are, and how far away.
+  step.profiles[static_cast<std::size_t>(side)] = MakeFlowProfile(*field);
+  // III, Fig. 4, equations (11), (12): at most two landmarks a camera.
+  const std::vector<SeenLandmark> seen = FindLandmarks(*field, settings_.landmark);
+  // III: counted along the journey.
+  const std::vector<Fingerprint> counted = tracker_.Count(step.step, side, seen);
+  for (std::size_t i = 0; i < counted.size(); ++i) {
+    step.fingerprints.push_back({side, counted[i], seen[i].spread});
+  }
+}
+
+}  // namespace homing

@@ -1,0 +1,61 @@
+// BUILD pipeline: observations to steps of a journey, in the paper's order (II-B, III).
+#ifndef HOMING_JOURNEY_JOURNEY_RECORDER_H_
+#define HOMING_JOURNEY_JOURNEY_RECORDER_H_
+
+#include <cstdint>
+#include <optional>
+
+#include "absl/status/statusor.h"
+#include "homing/flow/observation.h"
+#include "homing/journey/journey_map.h"
+#include "homing/journey/journey_settings.h"
+#include "homing/landmark/landmark_tracker.h"
+
+namespace homing {
+
+// What a journey is fed with; fixed by its first observation.
+enum class InputKind { kUnknown = 0, kFrames = 1, kFlowVectors = 2 };
+
+// INVALID_ARGUMENT: frames and flow vectors in one observation, or no camera.
+absl::StatusOr<InputKind> InputKindOf(const Observation& observation);
+
+// Earlier observations that tracking looks back on: 1 for frames, 0 for flow vectors.
+std::int64_t LookBack(InputKind kind);
+
+// The step that observation `sequence` makes: sequence - 1 for frames (the first makes none),
+// sequence for flow vectors.
+std::optional<std::int64_t> StepOf(InputKind kind, std::int64_t sequence);
+
+// One stream of one journey. Not thread-safe.
+class JourneyRecorder {
+ public:
+  // REQUIRES: Validate(settings).ok().
+  explicit JourneyRecorder(const JourneySettings& settings, const DecodeLimits& limits = {});
+
+  // Takes up a journey that has been recorded before.
+  void Resume(const JourneyMap& map);
+
+  // Nothing for the first frame and for steps below map size at Resume (they rebuild state only).
+  // INVALID_ARGUMENT: as InputKindOf and ObservationFlow, a kind unlike the first;
+  // FAILED_PRECONDITION: image size unlike the journey's camera. After an error the state is as
+  // before the call.
+  absl::StatusOr<std::optional<JourneyStep>> Record(const Observation& observation);
+
+  // With image sizes filled in as they become known.
+  const JourneySettings& settings() const { return settings_; }
+
+ private:
+  absl::Status CheckKind(InputKind kind) const;
+  // The landmarks of one camera's field, counted, to the step.
+  void AddLandmarks(Side side, const std::optional<FlowField>& field, JourneyStep& step);
+
+  JourneySettings settings_;
+  ObservationFlow flow_;
+  LandmarkTracker tracker_;
+  InputKind kind_ = InputKind::kUnknown;
+  std::int64_t next_step_ = 0;
+};
+
+}  // namespace homing
+
+#endif  // HOMING_JOURNEY_JOURNEY_RECORDER_H_

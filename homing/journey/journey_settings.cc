@@ -1,0 +1,23 @@
+#include "homing/journey/journey_settings.h"
+
+#include "absl/strings/match.h"
+#include "absl/strings/str_cat.h"
+#include "homing/range_check.h"
+#include "homing/status_macros.h"
+
+namespace homing {
+
+absl::Status Validate(const JourneySettings& settings) {
+  HOMING_RETURN_IF_ERROR(Within("left_camera", Validate(settings.cameras[0])));
+  HOMING_RETURN_IF_ERROR(Within("right_camera", Validate(settings.cameras[1])));
+  HOMING_RETURN_IF_ERROR(Validate(settings.flow));
+  HOMING_RETURN_IF_ERROR(Validate(settings.landmark));
+  if (!absl::StartsWith(settings.deviation_model_name, "deviationModels/")) {
+    return absl::InvalidArgumentError(absl::StrCat("deviation_model_name is '",
+                                                   settings.deviation_model_name,
+                                                   "', must begin with 'deviationModels/'"));
+  }
+  return Within("deviation_model", Validate(settings.deviation_model));
+}
+
+}  // namespace homing

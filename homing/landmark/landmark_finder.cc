@@ -1,0 +1,142 @@
+#include "homing/landmark/landmark_finder.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace homing {
+namespace {
+
+bool IsUsable(const FlowVector& v, const LandmarkOptions& options) {
+  return std::isfinite(v.start_x) && std::isfinite(v.start_y) && std::isfinite(v.end_x) &&
+         std::isfinite(v.end_y) && v.Length() >= options.min_vector_length_px;
+}
+
+// Bin of a midpoint; those off the image fall in the outermost bins.
+std::size_t BinOf(double x, int width, std::size_t bins) {
+  const double position = std::clamp(x / std::max(1, width), 0.0, 1.0) * static_cast<double>(bins);
+  return std::min(bins - 1, static_cast<std::size_t>(position));
+}
+
+// Weights 1, 2, 1 of four: one bin that is empty by chance is no valley.
+std::vector<double> Smoothed(const std::vector<int>& histogram) {
+  const std::size_t last = histogram.size() - 1;
+  std::vector<double> result(histogram.size());
+  for (std::size_t i = 0; i <= last; ++i) {
+    const int low = histogram[i == 0 ? 0 : i - 1];
+    const int high = histogram[std::min(last, i + 1)];
+    result[i] = 0.25 * (low + 2 * histogram[i] + high);
+  }
+  return result;
+}
+
+// How far the bin lies under the lower of the peaks on its two sides; 0 if it is no valley.
+double DepthAt(const std::vector<double>& histogram, std::size_t bin, double max_ratio) {
+  const auto middle = histogram.begin() + static_cast<std::ptrdiff_t>(bin);
+  const double left = *std::max_element(histogram.begin(), middle);
+  const double right = *std::max_element(middle + 1, histogram.end());
+  const double lower_peak = std::min(left, right);
+  return *middle <= max_ratio * lower_peak ? lower_peak - *middle : 0;
+}
+
+// Both sides of the bin are landmarks by themselves.
+bool SidesAreLarge(const std::vector<int>& histogram, std::size_t bin,
+                   const LandmarkOptions& options) {
+  const auto middle = histogram.begin() + static_cast<std::ptrdiff_t>(bin);
+  const int left = std::accumulate(histogram.begin(), middle, 0);
+  const int right = std::accumulate(middle + 1, histogram.end(), 0);
+  const double least = std::max(static_cast<double>(options.min_vectors),
+                                options.min_peak_share * (left + right + *middle));
+  return std::min(left, right) >= least;
+}
+
+// Middle of the lowest bin between the two peaks (Fig. 4), of a gap of equal bins the gap's middle.
+std::optional<double> ValleyOf(const std::vector<int>& histogram, int width,
+                               const LandmarkOptions& options) {
+  const std::vector<double> smooth = Smoothed(histogram);
+  double deepest = 0;
+  std::size_t first = 0;
+  std::size_t last = 0;
+  for (std::size_t bin = 1; bin + 1 < histogram.size(); ++bin) {
+    const double depth = DepthAt(smooth, bin, options.max_valley_ratio);
+    if (depth <= 0 || depth < deepest || !SidesAreLarge(histogram, bin, options)) {
+      continue;
+    }
+    if (depth > deepest) {
+      first = bin;
+      last = bin;
+      deepest = depth;
+    } else if (bin == last + 1) {
+      last = bin;
+    }
+  }
+  if (deepest <= 0) {
+    return std::nullopt;
+  }
+  const double middle = 0.5 * static_cast<double>(first + last) + 0.5;
+  return middle * width / static_cast<double>(histogram.size());
+}
+
+SeenLandmark MeanOf(const std::vector<FlowVector>& vectors) {
+  const auto n = static_cast<double>(vectors.size());
+  double x = 0;
+  double y = 0;
+  double length = 0;
+  double square = 0;
+  SeenLandmark seen;
+  for (const FlowVector& v : vectors) {
+    x += v.MidX();
+    y += v.MidY();
+    seen.flow_x += v.FlowX() / n;
+    seen.flow_y += v.FlowY() / n;
+    length += v.Length();
+    square += v.Length() * v.Length();
+  }
+  // Equations (11), (12).
+  seen.x = static_cast<float>(x / n);
+  seen.y = static_cast<float>(y / n);
+  seen.count = static_cast<int>(vectors.size());
+  const double mean = length / n;
+  seen.spread = mean > 0 ? std::sqrt(std::max(0.0, square / n - mean * mean)) / mean : 0;
+  return seen;
+}
+
+}  // namespace
+
+LandmarkSplit SplitAtValley(const FlowField& field, const LandmarkOptions& options) {
+  const auto bins = static_cast<std::size_t>(options.histogram_bins);
+  LandmarkSplit split;
+  split.histogram.assign(bins, 0);
+  for (const FlowVector& v : field.vectors) {
+    split.assignment.push_back(IsUsable(v, options) ? 0 : -1);
+    if (split.assignment.back() == 0) {
+      ++split.histogram[BinOf(v.MidX(), field.width, bins)];
+    }
+  }
+  split.valley_x = ValleyOf(split.histogram, field.width, options);
+  for (std::size_t i = 0; i < field.vectors.size(); ++i) {
+    if (split.valley_x && split.assignment[i] == 0 && field.vectors[i].MidX() >= *split.valley_x) {
+      split.assignment[i] = 1;
+    }
+  }
+  return split;
+}
+
+std::vector<SeenLandmark> FindLandmarks(const FlowField& field, const LandmarkOptions& options) {
+  const LandmarkSplit split = SplitAtValley(field, options);
+  std::vector<SeenLandmark> seen;
+  for (const int landmark : {0, 1}) {
+    std::vector<FlowVector> vectors;
+    for (std::size_t i = 0; i < field.vectors.size(); ++i) {
+      if (split.assignment[i] == landmark) {
+        vectors.push_back(field.vectors[i]);
+      }
+    }
+    if (!vectors.empty() && static_cast<int>(vectors.size()) >= options.min_vectors) {
+      seen.push_back(MeanOf(vectors));
+    }
+  }
+  return seen;
+}
+
+}  // namespace homing

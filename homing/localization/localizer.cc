@@ -1,0 +1,133 @@
+#include "homing/localization/localizer.h"
+
+#include "absl/strings/str_cat.h"
+#include "homing/flow/motion.h"
+#include "homing/journey/camera_pair.h"
+#include "homing/range_check.h"
+#include "homing/status_macros.h"
+
+namespace homing {
+namespace {
+
+constexpr std::array<const char*, 2> kCameraNames{"left", "right"};
+
+absl::Status CheckSize(std::size_t index, const Camera& camera, const Camera& recorded) {
+  if (camera.width == 0 || recorded.width == 0 ||
+      (camera.width == recorded.width && camera.height == recorded.height)) {
+    return absl::OkStatus();
+  }
+  return absl::FailedPreconditionError(absl::StrCat(
+      kCameraNames[index], " image is ", camera.width, "x", camera.height, ", must be ",
+      recorded.width, "x", recorded.height, " as recorded on the side of the route that it sees"));
+}
+
+}  // namespace
+
+absl::Status Validate(const LocalizerOptions& options) {
+  HOMING_RETURN_IF_ERROR(Within("left_camera", Validate(options.cameras[0])));
+  HOMING_RETURN_IF_ERROR(Within("right_camera", Validate(options.cameras[1])));
+  HOMING_RETURN_IF_ERROR(Validate(options.flow));
+  HOMING_RETURN_IF_ERROR(Validate(options.landmark));
+  HOMING_RETURN_IF_ERROR(Within("match", Validate(options.match)));
+  return Within("position", Validate(options.position));
+}
+
+absl::Status CheckCompatible(const LocalizerOptions& query, const JourneySettings& settings) {
+  if (!(query.flow == settings.flow)) {
+    return absl::FailedPreconditionError("flow options differ from the journey's");
+  }
+  if (!(query.landmark == settings.landmark)) {
+    return absl::FailedPreconditionError("landmark options differ from the journey's");
+  }
+  for (const Side camera : {Side::kLeft, Side::kRight}) {
+    const auto index = static_cast<std::size_t>(camera);
+    const auto side = static_cast<std::size_t>(RouteSide(camera, query.travel));
+    HOMING_RETURN_IF_ERROR(CheckSize(index, query.cameras[index], settings.cameras[side]));
+  }
+  return absl::OkStatus();
+}
+
+Localizer::Localizer(const LocalizerOptions& options, const DecodeLimits& limits)
+    : options_(options), flow_(options.flow, limits), filter_(options.position) {}
+
+absl::StatusOr<Localization> Localizer::Localize(const Observation& observation,
+                                                 std::span<const JourneyRef> journeys) {
+  Localization result;
+  result.sequence = observation.sequence;
+  // II-B, equations (1) to (5): corners, and their flow since the frame before.
+  HOMING_ASSIGN_OR_RETURN(const auto cameras, CamerasFor(journeys));
+  HOMING_ASSIGN_OR_RETURN(ObservedFlow flow, flow_.Compute(observation, cameras));
+  flow_.FillSizes(options_.cameras);
+  // Own design: what an ideal camera, square to the direction of travel, would have seen.
+  flow = Rectify(flow, options_.cameras);
+  result.has_flow = flow.fields[0].has_value() || flow.fields[1].has_value();
+  // Without flow nothing is known of the motion: the belief waits.
+  result.motion = result.has_flow ? ClassifyMotion(flow, options_.cameras) : Motion::kStanding;
+  // III, Fig. 4, equations (11), (12): landmarks, by the side of the route that they are on.
+  const SeenSides seen = FindRouteLandmarks(flow, result.motion);
+  // III, equations (13) to (15), over all stored landmarks.
+  result.matches = FindMatches(journeys, seen, options_.match);
+  // V, future work: where the sequence of what was seen places the robot.
+  result.position =
+      filter_.Update(journeys, result.motion, seen, MakeRouteProfiles(flow, result.motion));
+  TellLandmark(journeys, seen, result);
+  return result;
+}
+
+absl::StatusOr<std::array<Camera, 2>> Localizer::CamerasFor(
+    std::span<const JourneyRef> journeys) const {
+  LocalizerOptions query = options_;
+  for (const JourneyRef& journey : journeys) {
+    HOMING_RETURN_IF_ERROR(CheckCompatible(query, journey.map->settings()));
+    for (const Side camera : {Side::kLeft, Side::kRight}) {
+      Camera& mine = query.cameras[static_cast<std::size_t>(camera)];
+      const auto side = static_cast<std::size_t>(RouteSide(camera, query.travel));
+      const Camera& recorded = journey.map->settings().cameras[side];
+      if (mine.width == 0) {
+        mine.width = recorded.width;
+        mine.height = recorded.height;
+      }
+    }
+  }
+  return query.cameras;
+}
+
+SeenSides Localizer::FindRouteLandmarks(const ObservedFlow& flow, Motion motion) const {
+  SeenSides seen;
+  for (const Side camera : {Side::kLeft, Side::kRight}) {
+    const auto& field = flow.fields[static_cast<std::size_t>(camera)];
+    if (field && motion == Motion::kMoving) {
+      seen[static_cast<std::size_t>(RouteSide(camera, options_.travel))] =
+          FindLandmarks(*field, options_.landmark);
+    }
+  }
+  return seen;
+}
+
+SeenProfiles Localizer::MakeRouteProfiles(const ObservedFlow& flow, Motion motion) const {
+  SeenProfiles seen;
+  for (const Side camera : {Side::kLeft, Side::kRight}) {
+    const auto& field = flow.fields[static_cast<std::size_t>(camera)];
+    if (field && motion == Motion::kMoving) {
+      seen[static_cast<std::size_t>(RouteSide(camera, options_.travel))] = MakeProfileViews(*field);
+    }
+  }
+  return seen;
+}
+
+void Localizer::TellLandmark(std::span<const JourneyRef> journeys, const SeenSides& seen,
+                             Localization& result) const {
+  const Position& position = result.position;
+  if (!position.step) {
+    return;
+  }
+  const auto best =
+      BestMatchWithin(journeys[static_cast<std::size_t>(position.journey)], position.interval_first,
+                      position.interval_last, seen, options_.match.threshold);
+  if (best) {
+    result.landmark = best->landmark;
+    result.similarity = best->similarity.p_t;
+  }
+}
+
+}  // namespace homing

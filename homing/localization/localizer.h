@@ -1,0 +1,72 @@
+// QUERY pipeline: observations to matches and a position, in the paper's order (III).
+#ifndef HOMING_LOCALIZATION_LOCALIZER_H_
+#define HOMING_LOCALIZATION_LOCALIZER_H_
+
+#include <array>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "absl/status/statusor.h"
+#include "homing/flow/observation.h"
+#include "homing/localization/matcher.h"
+#include "homing/localization/position_filter.h"
+
+namespace homing {
+
+struct LocalizerOptions {
+  Travel travel = Travel::kReturn;
+  // This robot's cameras, indexed by Side of the ROBOT; sizes of 0 are filled in.
+  std::array<Camera, 2> cameras;
+  // Those of the journeys searched.
+  FlowOptions flow;
+  LandmarkOptions landmark;
+  MatchOptions match;
+  PositionOptions position;
+};
+
+absl::Status Validate(const LocalizerOptions& options);
+
+struct Localization {
+  std::int64_t sequence = 0;
+  Motion motion = Motion::kMoving;
+  // False for the first frame and after a break: nothing could be compared.
+  bool has_flow = false;
+  Position position;
+  // Best match within the position's interval, else none.
+  std::optional<std::int32_t> landmark;
+  std::optional<double> similarity;
+  std::vector<Match> matches;
+};
+
+// OK if `query` may be localised on a journey of `settings`: image sizes agree side by side of the
+// route, flow and landmark options agree. FAILED_PRECONDITION naming what differs.
+absl::Status CheckCompatible(const LocalizerOptions& query, const JourneySettings& settings);
+
+// One homing robot. Not thread-safe.
+class Localizer {
+ public:
+  // REQUIRES: Validate(options).ok().
+  explicit Localizer(const LocalizerOptions& options, const DecodeLimits& limits = {});
+
+  // `journeys` as in PositionFilter::Update. INVALID_ARGUMENT: as ObservationFlow.
+  // FAILED_PRECONDITION: image size unlike the journeys'. After an error the state is as before.
+  absl::StatusOr<Localization> Localize(const Observation& observation,
+                                        std::span<const JourneyRef> journeys);
+
+ private:
+  // This robot's cameras, with the sizes that they must have. FAILED_PRECONDITION.
+  absl::StatusOr<std::array<Camera, 2>> CamerasFor(std::span<const JourneyRef> journeys) const;
+  SeenSides FindRouteLandmarks(const ObservedFlow& flow, Motion motion) const;
+  SeenProfiles MakeRouteProfiles(const ObservedFlow& flow, Motion motion) const;
+  void TellLandmark(std::span<const JourneyRef> journeys, const SeenSides& seen,
+                    Localization& result) const;
+
+  LocalizerOptions options_;
+  ObservationFlow flow_;
+  PositionFilter filter_;
+};
+
+}  // namespace homing
+
+#endif  // HOMING_LOCALIZATION_LOCALIZER_H_

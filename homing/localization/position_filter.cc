@@ -1,0 +1,163 @@
+#include "homing/localization/position_filter.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "homing/localization/step_window.h"
+
+namespace homing {
+namespace {
+
+// Share of the moving mass that one direction must have to be told.
+constexpr double kDirectionMargin = 0.6;
+// Less on the route is nothing.
+constexpr double kLeastMass = 1e-30;
+// Fitted: see docs/algorithm.md.
+constexpr MembershipRates kByProfiles = {
+    .first_weight = 0.7, .weight = 0.06, .least_log_odds = -2.6, .most_log_odds = 0.2};
+constexpr MembershipRates kByLandmarks = {
+    .first_weight = 1, .weight = 1, .least_log_odds = -30, .most_log_odds = 7.6};
+// The filter is cautious: of the intervals that it holds p for, 1 - (1 - p)^kCaution were right.
+constexpr double kCaution = 1.86;
+
+// Steps count from home.
+Direction DirectionOf(const std::array<double, 2>& mass) {
+  const double both = mass[0] + mass[1];
+  if (mass[0] > kDirectionMargin * both) {
+    return Direction::kHomeward;
+  }
+  return mass[1] > kDirectionMargin * both ? Direction::kOutward : Direction::kUnknown;
+}
+
+}  // namespace
+
+PositionFilter::PositionFilter(const PositionOptions& options)
+    : options_(options), likelihood_(options.likelihood), membership_(options.off_route_prior) {}
+
+Position PositionFilter::Update(std::span<const JourneyRef> journeys, Motion motion,
+                                const SeenSides& seen, const SeenProfiles& profiles) {
+  Grow(journeys);
+  if (motion != Motion::kStanding && step_count_ > 0) {
+    Predict(motion);
+    if (motion == Motion::kMoving) {
+      Correct(journeys, seen, profiles);
+      started_ = true;
+    }
+  }
+  return Answer();
+}
+
+void PositionFilter::Grow(std::span<const JourneyRef> journeys) {
+  const std::int64_t before = step_count_;
+  step_count_ = 0;
+  for (const JourneyRef& journey : journeys) {
+    step_count_ += journey.map->step_count();
+  }
+  beliefs_.resize(journeys.size());
+  if (before == step_count_) {
+    return;
+  }
+  const double mean = 1 / static_cast<double>(before == 0 ? step_count_ : before);
+  for (std::size_t i = 0; i < journeys.size(); ++i) {
+    beliefs_[i].Grow(journeys[i].map->step_count(), mean);
+  }
+  Normalize();
+}
+
+// What runs off the ends was no way that the robot went: the others share its mass.
+void PositionFilter::Predict(Motion motion) {
+  for (RouteBelief& belief : beliefs_) {
+    motion == Motion::kMoving ? belief.Move() : belief.Turn();
+  }
+  Normalize();
+  const double restarted = options_.restart_probability / static_cast<double>(step_count_);
+  for (RouteBelief& belief : beliefs_) {
+    belief.Scale(1 - options_.restart_probability);
+    belief.AddToEach(restarted);
+  }
+}
+
+void PositionFilter::CorrectByProfiles(std::span<const JourneyRef> journeys,
+                                       const SeenProfiles& profiles) {
+  std::vector<std::vector<double>> predicted;
+  predicted.reserve(beliefs_.size());
+  for (const RouteBelief& belief : beliefs_) {
+    predicted.push_back(belief.StepMass());
+  }
+  profile_likelihood_.Compute(journeys, profiles, predicted);
+  for (std::size_t i = 0; i < beliefs_.size(); ++i) {
+    beliefs_[i].Weigh(profile_likelihood_.of(i));
+  }
+  const double mass = Normalize();
+  membership_.Add(std::log(std::max(mass, kLeastMass)) - profile_likelihood_.OffRoute(),
+                  kByProfiles);
+}
+
+void PositionFilter::CorrectByLandmarks(std::span<const JourneyRef> journeys,
+                                        const SeenSides& seen) {
+  likelihood_.Compute(journeys, seen);
+  for (std::size_t i = 0; i < beliefs_.size(); ++i) {
+    beliefs_[i].Weigh(likelihood_.of(i));
+  }
+  const double mass = Normalize();
+  membership_.Add(std::log(std::max(mass, kLeastMass) / likelihood_.OffRoute()), kByLandmarks);
+}
+
+void PositionFilter::Correct(std::span<const JourneyRef> journeys, const SeenSides& seen,
+                             const SeenProfiles& profiles) {
+  if (!options_.paper_only && ProfileLikelihood::CanCompare(journeys, profiles)) {
+    CorrectByProfiles(journeys, profiles);
+  } else {
+    CorrectByLandmarks(journeys, seen);
+  }
+}
+
+double PositionFilter::Normalize() {
+  double mass = 0;
+  for (const RouteBelief& belief : beliefs_) {
+    mass += belief.Mass();
+  }
+  for (RouteBelief& belief : beliefs_) {
+    if (mass > kLeastMass) {
+      belief.Scale(1 / mass);
+    } else {
+      belief.AddToEach(1 / static_cast<double>(step_count_));
+    }
+  }
+  return mass;
+}
+
+Position PositionFilter::Answer() const {
+  Position position;
+  position.unknown_probability = membership_.OffRoute();
+  if (!started_) {
+    return position;
+  }
+  if (position.unknown_probability >= options_.unknown_probability) {
+    position.outcome = Outcome::kUnknownPlace;
+    return position;
+  }
+  StepWindow best;
+  for (std::size_t i = 0; i < beliefs_.size(); ++i) {
+    const StepWindow window = BestWindow(beliefs_[i].StepMass(), options_.tolerance_steps);
+    if (window.mass > best.mass) {
+      best = window;
+      position.journey = static_cast<int>(i);
+    }
+  }
+  const RouteBelief& belief = beliefs_[static_cast<std::size_t>(position.journey)];
+  position.step = best.step;
+  position.interval_first = best.first;
+  position.interval_last = best.last;
+  const double elsewhere = std::pow(1 - std::clamp(best.mass, 0.0, 1.0), kCaution);
+  position.probability = (1 - position.unknown_probability) * (1 - elsewhere);
+  position.outcome =
+      position.probability >= options_.match_probability ? Outcome::kMatch : Outcome::kAmbiguous;
+  const auto last_step = static_cast<double>(std::max<std::int64_t>(1, belief.step_count() - 1));
+  position.progress_home = 1 - static_cast<double>(best.step) / last_step;
+  position.direction = DirectionOf(belief.DirectionMass(best.first, best.last));
+  return position;
+}
+
+}  // namespace homing

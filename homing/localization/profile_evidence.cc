@@ -1,0 +1,66 @@
+#include "homing/localization/profile_evidence.h"
+
+#include <cmath>
+
+namespace homing {
+namespace {
+
+// Fitted: a distance of u deviations from the middle of the unmatched ones speaks for the step as
+// exp(kSlope (-u - kNeutral)), kMostEvidence at most, and comes from anywhere (hidden, removed,
+// new) with probability kOutlierShare.
+constexpr double kSlope = 2;
+constexpr double kNeutral = 1;
+constexpr double kMostEvidence = 5;
+constexpr double kOutlierShare = 0.2;
+// Exponent of what a further observation says.
+constexpr double kTemper = 0.3;
+// Deviation of unmatched distances, of their middle, and how many of them it is worth.
+constexpr double kDeviation = 0.17;
+constexpr double kDeviationWorth = 100;
+constexpr double kMiddle = 600;
+constexpr double kMiddleWorth = 2;
+
+}  // namespace
+
+// The lower half holds the matched ones: the deviation is that of the upper half.
+DistanceScale ScaleOf(std::vector<float>& sample) {
+  double middle = kMiddle;
+  if (!sample.empty()) {
+    const auto half = sample.begin() + static_cast<std::ptrdiff_t>(sample.size() / 2);
+    std::nth_element(sample.begin(), half, sample.end());
+    const auto count = static_cast<double>(sample.size());
+    middle = (count * double{*half} + kMiddleWorth * kMiddle) / (count + kMiddleWorth);
+  }
+  double squares = kDeviationWorth * kDeviation * kDeviation;
+  double above = kDeviationWorth;
+  for (const float distance : sample) {
+    const double relative = double{distance} / middle - 1;
+    if (relative > 0) {
+      squares += relative * relative;
+      above += 1;
+    }
+  }
+  const double deviation = middle * std::sqrt(squares / above);
+  return {static_cast<float>(middle), static_cast<float>(1 / deviation)};
+}
+
+ProfileRatio::ProfileRatio(double temper) {
+  for (std::size_t i = 0; i < values_.size(); ++i) {
+    const double u = (static_cast<double>(i) + 0.5) / kPerDeviation - kMost;
+    const double evidence = std::min(kSlope * (-u - kNeutral), kMostEvidence);
+    values_[i] = static_cast<float>(
+        std::pow(kOutlierShare + (1 - kOutlierShare) * std::exp(evidence), temper));
+  }
+}
+
+const ProfileRatio& ProfileRatio::First() {
+  static const ProfileRatio ratio(1);
+  return ratio;
+}
+
+const ProfileRatio& ProfileRatio::Further() {
+  static const ProfileRatio ratio(kTemper);
+  return ratio;
+}
+
+}  // namespace homing

@@ -1,0 +1,54 @@
+// What a distance between flow profiles says: the likelihood ratio of the very place against a
+// place at random. Source: own design; fitted to matched and unmatched pairs (docs/algorithm.md).
+#ifndef HOMING_LOCALIZATION_PROFILE_EVIDENCE_H_
+#define HOMING_LOCALIZATION_PROFILE_EVIDENCE_H_
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace homing {
+
+// The unmatched distances of what is seen now: poor light makes all of them great, so only how far
+// one lies below the others tells anything.
+struct DistanceScale {
+  float middle = 0;
+  // 1 / their deviation.
+  float per_deviation = 0;
+
+  float Deviations(std::uint16_t distance) const {
+    return (static_cast<float>(distance) - middle) * per_deviation;
+  }
+};
+
+// Of the distances to many steps of the journeys, most of them of other places. Reorders `sample`.
+// A short one says little: then what is usual counts more.
+DistanceScale ScaleOf(std::vector<float>& sample);
+
+// The ratio of a distance so many deviations from the middle of the unmatched ones. Positive.
+class ProfileRatio {
+ public:
+  // Of the first observation of a robot, which depends on nothing before.
+  static const ProfileRatio& First();
+  // Of a further one, which shows nearly what the one before has shown: tempered.
+  static const ProfileRatio& Further();
+
+  float operator()(float deviations) const {
+    const float at = (std::clamp(deviations, -kMost, kMost - 0.01F) + kMost) * kPerDeviation;
+    return values_[static_cast<std::size_t>(at)];
+  }
+
+ private:
+  static constexpr float kMost = 16;
+  static constexpr float kPerDeviation = 32;
+
+  explicit ProfileRatio(double temper);
+
+  std::array<float, static_cast<std::size_t>(2 * kMost * kPerDeviation)> values_;
+};
+
+}  // namespace homing
+
+#endif  // HOMING_LOCALIZATION_PROFILE_EVIDENCE_H_

@@ -1,0 +1,82 @@
+// How well the steps of the journeys fit what is seen at one instant: P_T of up to four landmarks,
+// assigned one to one within a side. Source: paper III, V; how they combine: own design.
+#ifndef HOMING_LOCALIZATION_STEP_LIKELIHOOD_H_
+#define HOMING_LOCALIZATION_STEP_LIKELIHOOD_H_
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "absl/status/status.h"
+#include "homing/localization/factor_table.h"
+#include "homing/localization/matcher.h"
+
+namespace homing {
+
+struct LikelihoodOptions {
+  // Least P_T of a landmark. (0, 1).
+  double floor = 1e-3;
+  // Probability that a landmark is not what the map has there (hidden, new, divided otherwise).
+  // [0, 1].
+  double outlier_share = 0.6;
+  // Exponent of the whole: what consecutive frames show is not independent. (0, 1].
+  double temper = 0.25;
+  // How far being off the route lies from a step at random (0) towards the true step (1), as
+  // logarithms. [0, 1].
+  double off_route_share = 0.4;
+};
+
+absl::Status Validate(const LikelihoodOptions& options);
+
+// Keeps its tables from call to call. Not thread-safe.
+class StepLikelihood {
+ public:
+  // REQUIRES: Validate(options).ok().
+  explicit StepLikelihood(const LikelihoodOptions& options) : options_(options) {}
+
+  // Both as in PositionFilter::Update.
+  void Compute(std::span<const JourneyRef> journeys, const SeenSides& seen);
+
+  // One value a step: the product of its landmarks' factors. A factor is P_T over its mean over all
+  // steps of all journeys where it could be compared, or 1 if it is an outlier. Where it could not,
+  // it is neutral: 1.
+  const std::vector<float>& of(std::size_t journey) const { return likelihoods_[journey]; }
+  // The value of being off the route: between that of a step at random, 1, and what is expected of
+  // the true step.
+  double OffRoute() const;
+
+ private:
+  // Two landmarks a side of the route.
+  static constexpr std::size_t kSlots = 4;
+  // Of one landmark, a value a step; below 0: not compared.
+  using Factors = std::array<std::vector<float>, kSlots>;
+  struct Moments {
+    double sum = 0;
+    double squares = 0;
+    std::int64_t count = 0;
+
+    void Add(double value) {
+      sum += value;
+      squares += value * value;
+      ++count;
+    }
+    double Mean() const { return sum / static_cast<double>(count); }
+    double MeanOfSquares() const { return squares / static_cast<double>(count); }
+  };
+
+  void ComputeFactors(const JourneyMap& map, const FactorTable& table, const SeenSides& seen,
+                      Factors& factors);
+  void Combine(const Factors& factors, std::vector<float>& likelihood) const;
+
+  LikelihoodOptions options_;
+  // By journey.
+  std::vector<FactorTable> tables_;
+  std::vector<Factors> factors_;
+  std::vector<std::vector<float>> likelihoods_;
+  std::array<Moments, kSlots> moments_;
+};
+
+}  // namespace homing
+
+#endif  // HOMING_LOCALIZATION_STEP_LIKELIHOOD_H_

@@ -1,0 +1,25 @@
+// The interval of steps that holds the most of a belief. Source: own design.
+#ifndef HOMING_LOCALIZATION_STEP_WINDOW_H_
+#define HOMING_LOCALIZATION_STEP_WINDOW_H_
+
+#include <cstdint>
+#include <vector>
+
+namespace homing {
+
+// `step` +- a half width, cut at the ends of the journey, inclusive.
+struct StepWindow {
+  std::int64_t step = 0;
+  std::int64_t first = 0;
+  std::int64_t last = 0;
+  // Below 0: no window.
+  double mass = -1;
+};
+
+// The window of the greatest mass, moved to the mean of the mass within: where that is narrow, many
+// windows hold all of it. Nothing for no steps. `half` >= 0.
+StepWindow BestWindow(const std::vector<double>& mass_by_step, std::int64_t half);
+
+}  // namespace homing
+
+#endif  // HOMING_LOCALIZATION_STEP_WINDOW_H_
