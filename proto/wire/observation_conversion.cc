@@ -1,0 +1,205 @@
+#include "proto/wire/observation_conversion.h"
+
+#include <cmath>
+
+#include "absl/status/status.h"
+#include "absl/strings/str_cat.h"
+#include "homing/status_macros.h"
+#include "proto/wire/enum_conversion.h"
+
+namespace homing::wire {
+namespace {
+
+using Column = google::protobuf::RepeatedField<float>;
+
+constexpr std::int64_t kNanosecondsPerSecond = 1'000'000'000;
+// Last whole second whose nanoseconds fit.
+constexpr std::int64_t kMaxSeconds = 9'223'372'035;
+// Far beyond any image, near enough for all arithmetic, pixels.
+constexpr float kMaxCoordinate = 65536;
+
+bool IsRaw(FrameEncoding encoding) {
+  return encoding == FrameEncoding::kGray8 || encoding == FrameEncoding::kRgb8 ||
+         encoding == FrameEncoding::kBgr8;
+}
+
+absl::Status CheckSide(int value, int min, int max, const std::string& field) {
+  if (value >= min && value <= max) return absl::OkStatus();
+  return absl::InvalidArgumentError(
+      absl::StrCat(field, " is ", value, ": must be ", min, " to ", max, " px"));
+}
+
+absl::Status CheckColumn(const Column& column, int size, const std::string& field) {
+  if (column.size() != size) {
+    return absl::InvalidArgumentError(absl::StrCat(
+        field, " has ", column.size(), " entries: must have as many as start_x, ", size));
+  }
+  for (int i = 0; i < size; ++i) {
+    if (!(std::abs(column[i]) <= kMaxCoordinate)) {
+      return absl::InvalidArgumentError(absl::StrCat(field, "[", i, "] is ", column[i],
+                                                     ": must be finite and at most ",
+                                                     kMaxCoordinate, " px from the origin"));
+    }
+  }
+  return absl::OkStatus();
+}
+
+absl::StatusOr<CameraView> ViewFromProto(const v1::CameraView& message, const std::string& field,
+                                         const WireLimits& limits) {
+  switch (message.content_case()) {
+    case v1::CameraView::kFrame: {
+      HOMING_ASSIGN_OR_RETURN(Frame frame,
+                              FromProto(message.frame(), absl::StrCat(field, ".frame"), limits));
+      return CameraView(frame);
+    }
+    case v1::CameraView::kFlowVectors: {
+      HOMING_ASSIGN_OR_RETURN(
+          FlowField flow,
+          FromProto(message.flow_vectors(), absl::StrCat(field, ".flow_vectors"), limits));
+      return CameraView(std::move(flow));
+    }
+    case v1::CameraView::CONTENT_NOT_SET:
+      break;
+  }
+  return CameraView();
+}
+
+void ViewToProto(const CameraView& view, v1::CameraView* message) {
+  if (const auto* frame = std::get_if<Frame>(&view)) {
+    *message->mutable_frame() = ToProto(*frame);
+  } else if (const auto* flow = std::get_if<FlowField>(&view)) {
+    *message->mutable_flow_vectors() = ToProto(*flow);
+  }
+}
+
+bool IsEmpty(const CameraView& view) { return std::holds_alternative<std::monostate>(view); }
+
+}  // namespace
+
+absl::StatusOr<Frame> FromProto(const v1::Frame& message, const std::string& field,
+                                const WireLimits& limits) {
+  Frame frame;
+  HOMING_ASSIGN_OR_RETURN(frame.encoding,
+                          FromProto(message.encoding(), absl::StrCat(field, ".encoding")));
+  const int min = IsRaw(frame.encoding) ? 1 : 0;
+  HOMING_RETURN_IF_ERROR(
+      CheckSide(message.width(), min, limits.max_side_px, absl::StrCat(field, ".width")));
+  HOMING_RETURN_IF_ERROR(
+      CheckSide(message.height(), min, limits.max_side_px, absl::StrCat(field, ".height")));
+  if (message.data().empty()) {
+    return absl::InvalidArgumentError(
+        absl::StrCat(field, ".data is empty: must hold the image's bytes"));
+  }
+  frame.width = message.width();
+  frame.height = message.height();
+  frame.data = message.data();
+  return frame;
+}
+
+absl::StatusOr<FlowField> FromProto(const v1::FlowVectors& message, const std::string& field,
+                                    const WireLimits& limits) {
+  HOMING_RETURN_IF_ERROR(
+      CheckSide(message.width(), 1, limits.max_side_px, absl::StrCat(field, ".width")));
+  HOMING_RETURN_IF_ERROR(
+      CheckSide(message.height(), 1, limits.max_side_px, absl::StrCat(field, ".height")));
+  const int size = message.start_x_size();
+  if (size > limits.max_vectors) {
+    return absl::InvalidArgumentError(absl::StrCat(
+        field, ".start_x has ", size, " entries: must have at most ", limits.max_vectors));
+  }
+  HOMING_RETURN_IF_ERROR(CheckColumn(message.start_x(), size, absl::StrCat(field, ".start_x")));
+  HOMING_RETURN_IF_ERROR(CheckColumn(message.start_y(), size, absl::StrCat(field, ".start_y")));
+  HOMING_RETURN_IF_ERROR(CheckColumn(message.end_x(), size, absl::StrCat(field, ".end_x")));
+  HOMING_RETURN_IF_ERROR(CheckColumn(message.end_y(), size, absl::StrCat(field, ".end_y")));
+  FlowField flow;
+  flow.width = message.width();
+  flow.height = message.height();
+  flow.vectors.reserve(static_cast<std::size_t>(size));
+  for (int i = 0; i < size; ++i) {
+    flow.vectors.push_back(
+        {message.start_x(i), message.start_y(i), message.end_x(i), message.end_y(i)});
+  }
+  return flow;
+}
+
+absl::StatusOr<Observation> FromProto(const v1::Observation& message, const WireLimits& limits) {
+  Observation observation;
+  if (message.sequence() < 0) {
+    return absl::InvalidArgumentError(
+        absl::StrCat("observation.sequence is ", message.sequence(), ": must be at least 0"));
+  }
+  observation.sequence = message.sequence();
+  HOMING_ASSIGN_OR_RETURN(observation.capture_time_ns,
+                          FromProto(message.capture_time(), "observation.capture_time"));
+  observation.break_before = message.break_before();
+  HOMING_ASSIGN_OR_RETURN(observation.views[0],
+                          ViewFromProto(message.left(), "observation.left", limits));
+  HOMING_ASSIGN_OR_RETURN(observation.views[1],
+                          ViewFromProto(message.right(), "observation.right", limits));
+  if (IsEmpty(observation.views[0]) && IsEmpty(observation.views[1])) {
+    return absl::InvalidArgumentError(
+        "observation.left and observation.right are unset: at least one camera is required");
+  }
+  return observation;
+}
+
+absl::StatusOr<std::int64_t> FromProto(const google::protobuf::Timestamp& message,
+                                       const std::string& field) {
+  if (message.seconds() < 0 || message.seconds() > kMaxSeconds) {
+    return absl::InvalidArgumentError(
+        absl::StrCat(field, ".seconds is ", message.seconds(), ": must be 0 to ", kMaxSeconds));
+  }
+  if (message.nanos() < 0 || message.nanos() >= kNanosecondsPerSecond) {
+    return absl::InvalidArgumentError(
+        absl::StrCat(field, ".nanos is ", message.nanos(), ": must be 0 to 999999999"));
+  }
+  return message.seconds() * kNanosecondsPerSecond + message.nanos();
+}
+
+v1::Frame ToProto(const Frame& frame) {
+  v1::Frame message;
+  message.set_encoding(ToProto(frame.encoding));
+  message.set_width(frame.width);
+  message.set_height(frame.height);
+  message.set_data(frame.data.data(), frame.data.size());
+  return message;
+}
+
+v1::FlowVectors ToProto(const FlowField& flow) {
+  v1::FlowVectors message;
+  message.set_width(flow.width);
+  message.set_height(flow.height);
+  const int size = static_cast<int>(flow.vectors.size());
+  message.mutable_start_x()->Reserve(size);
+  message.mutable_start_y()->Reserve(size);
+  message.mutable_end_x()->Reserve(size);
+  message.mutable_end_y()->Reserve(size);
+  for (const FlowVector& vector : flow.vectors) {
+    message.add_start_x(vector.start_x);
+    message.add_start_y(vector.start_y);
+    message.add_end_x(vector.end_x);
+    message.add_end_y(vector.end_y);
+  }
+  return message;
+}
+
+v1::Observation ToProto(const Observation& observation) {
+  v1::Observation message;
+  message.set_sequence(observation.sequence);
+  if (observation.capture_time_ns != 0) {
+    *message.mutable_capture_time() = TimestampToProto(observation.capture_time_ns);
+  }
+  if (!IsEmpty(observation.views[0])) ViewToProto(observation.views[0], message.mutable_left());
+  if (!IsEmpty(observation.views[1])) ViewToProto(observation.views[1], message.mutable_right());
+  message.set_break_before(observation.break_before);
+  return message;
+}
+
+google::protobuf::Timestamp TimestampToProto(std::int64_t time_ns) {
+  google::protobuf::Timestamp message;
+  message.set_seconds(time_ns / kNanosecondsPerSecond);
+  message.set_nanos(static_cast<std::int32_t>(time_ns % kNanosecondsPerSecond));
+  return message;
+}
+
+}  // namespace homing::wire
