@@ -1,0 +1,40 @@
+// Group commit: appends of many streams share transactions. Source: own design.
+#ifndef STORAGE_COMMIT_QUEUE_H_
+#define STORAGE_COMMIT_QUEUE_H_
+
+#include <functional>
+#include <memory>
+
+#include "storage/journey_store.h"
+
+namespace homing::storage {
+
+struct CommitQueueOptions {
+  // Most appends waiting; Submit blocks no one: it refuses above this. [1, 1'000'000].
+  int max_pending = 4096;
+  // Most appends in one transaction.
+  int max_batch = 1024;
+};
+
+// One thread commits all that waits, in order of submission, then calls back. Thread-safe.
+class CommitQueue {
+ public:
+  // Called on the commit thread after the transaction ended.
+  using Done = std::function<void(absl::Status)>;
+
+  // `store` must outlive the queue.
+  explicit CommitQueue(JourneyStore* store, const CommitQueueOptions& options = {});
+  // Commits all that waits, then stops.
+  ~CommitQueue();
+
+  // RESOURCE_EXHAUSTED when full (`done` is then not called).
+  absl::Status Submit(JourneyAppend append, Done done);
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace homing::storage
+
+#endif  // STORAGE_COMMIT_QUEUE_H_

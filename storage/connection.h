@@ -1,0 +1,92 @@
+// One connection to the SQLite file: transactions and prepared statements. Exceptions of SQLiteCpp
+// end here. Source: own design.
+#ifndef STORAGE_CONNECTION_H_
+#define STORAGE_CONNECTION_H_
+
+#include <SQLiteCpp/SQLiteCpp.h>
+#include <SQLiteCpp/VariadicBind.h>
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <unordered_map>
+
+#include "absl/status/status.h"
+#include "absl/status/statusor.h"
+
+namespace homing::storage {
+
+// One use of a prepared statement; made ready for the next use at its end. Its members throw
+// SQLite::Exception and are used only in the body of a transaction.
+class Query {
+ public:
+  explicit Query(SQLite::Statement* statement) : statement_(statement) {}
+  Query(const Query&) = delete;
+  Query& operator=(const Query&) = delete;
+  ~Query() { statement_->tryReset(); }
+
+  // Steps to the next row; false: no more.
+  bool Next() { return statement_->executeStep(); }
+  // For statements without rows. Returns the number of rows changed.
+  int Run() { return statement_->exec(); }
+  std::int64_t Integer(int column) { return statement_->getColumn(column).getInt64(); }
+  double Real(int column) { return statement_->getColumn(column).getDouble(); }
+  std::string Text(int column) { return statement_->getColumn(column).getString(); }
+  // A BLOB, as it is.
+  std::string Bytes(int column) {
+    const SQLite::Column value = statement_->getColumn(column);
+    return {static_cast<const char*>(value.getBlob()), static_cast<std::size_t>(value.getBytes())};
+  }
+  // Value `index`, from 1, is a BLOB.
+  void BindBytes(int index, const std::string& bytes) {
+    statement_->bind(index, bytes.data(), static_cast<int>(bytes.size()));
+  }
+
+ private:
+  SQLite::Statement* statement_;
+};
+
+// Not thread-safe.
+class Connection {
+ public:
+  using Body = std::function<absl::Status()>;
+
+  enum class Access { kReadWrite, kReadOnly };
+  static absl::StatusOr<std::unique_ptr<Connection>> Open(const std::string& path, Access access,
+                                                          int busy_timeout_ms);
+
+  // Commits when `body` returns OK, else rolls back; so it does for any exception of SQLiteCpp,
+  // which becomes the status. Write takes the write lock at once; Read sees one state of the store
+  // from its first query to its end.
+  absl::Status Write(const Body& body) { return Transact("BEGIN IMMEDIATE", body); }
+  absl::Status Read(const Body& body) { return Transact("BEGIN", body); }
+  // Without a transaction (PRAGMA); exceptions become the status.
+  absl::Status Run(const Body& body);
+
+  // In a body. `sql` must be a literal: its address is the key of the prepared statement.
+  template <typename... Values>
+  Query Prepare(const char* sql, const Values&... values) {
+    SQLite::Statement& statement = Prepared(sql);
+    if constexpr (sizeof...(values) > 0) SQLite::bind(statement, values...);
+    return Query(&statement);
+  }
+  // In a body. Any number of statements without results.
+  void Execute(const std::string& sql) { database_.exec(sql); }
+  // In a body. The first value of one row.
+  std::int64_t Integer(const std::string& sql) { return database_.execAndGet(sql).getInt64(); }
+  std::string Text(const std::string& sql) { return database_.execAndGet(sql).getString(); }
+
+ private:
+  Connection(const std::string& path, int flags, int busy_timeout_ms)
+      : database_(path, flags, busy_timeout_ms) {}
+  absl::Status Transact(const char* begin, const Body& body);
+  void RollBack();
+  SQLite::Statement& Prepared(const char* sql);
+
+  SQLite::Database database_;
+  std::unordered_map<const char*, std::unique_ptr<SQLite::Statement>> statements_;
+};
+
+}  // namespace homing::storage
+
+#endif  // STORAGE_CONNECTION_H_

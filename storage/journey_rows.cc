@@ -1,0 +1,107 @@
+#include "storage/journey_rows.h"
+
+#include <algorithm>
+
+#include "absl/strings/str_cat.h"
+#include "homing/status_macros.h"
+#include "storage/row_words.h"
+#include "storage/settings_json.h"
+
+namespace homing::storage {
+namespace {
+
+constexpr char kInsert[] =
+    "INSERT INTO journeys (name, state, writer_id, readers, input, next_sequence, create_time_ns,"
+    " start_time_ns, end_time_ns, step_count, landmark_count, fingerprint_count, settings)"
+    " VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?) ON CONFLICT (name) DO NOTHING RETURNING journey_id";
+
+#define HOMING_JOURNEY_COLUMNS                                                         \
+  "journey_id, name, state, writer_id, readers, input, next_sequence, create_time_ns," \
+  " start_time_ns, end_time_ns, step_count, landmark_count, fingerprint_count, settings"
+
+constexpr char kFind[] = "SELECT " HOMING_JOURNEY_COLUMNS " FROM journeys WHERE name = ?";
+constexpr char kList[] = "SELECT " HOMING_JOURNEY_COLUMNS
+                         " FROM journeys WHERE name > ? AND name >= ? AND name < ?"
+                         " ORDER BY name LIMIT ?";
+constexpr char kDelete[] = "DELETE FROM journeys WHERE name = ?";
+constexpr char kSetState[] = "UPDATE journeys SET state = ? WHERE name = ?";
+constexpr char kSetWriter[] = "UPDATE journeys SET writer_id = ? WHERE name = ?";
+
+// Above every name that begins with a prefix: no UTF-8 text holds this byte.
+constexpr char kAfterAll[] = "\xff";
+
+absl::StatusOr<JourneyRow> ReadRow(Query& query) {
+  JourneyRow row;
+  JourneyRecord& record = row.record;
+  row.id = query.Integer(0);
+  record.name = query.Text(1);
+  HOMING_ASSIGN_OR_RETURN(record.state, StateOfWord(query.Text(2)));
+  record.writer_id = query.Text(3);
+  HOMING_ASSIGN_OR_RETURN(record.readers, NamesFromJson(query.Text(4)));
+  HOMING_ASSIGN_OR_RETURN(record.input, InputOfWord(query.Text(5)));
+  record.next_sequence = query.Integer(6);
+  record.create_time_ns = query.Integer(7);
+  record.start_time_ns = query.Integer(8);
+  record.end_time_ns = query.Integer(9);
+  record.step_count = query.Integer(10);
+  record.landmark_count = static_cast<std::int32_t>(query.Integer(11));
+  record.fingerprint_count = query.Integer(12);
+  HOMING_ASSIGN_OR_RETURN(record.settings, JourneySettingsFromJson(query.Text(13)));
+  return row;
+}
+
+absl::Status FoundIf(int rows_changed, const std::string& name) {
+  return rows_changed > 0 ? absl::OkStatus() : JourneyNotFound(name);
+}
+
+}  // namespace
+
+absl::Status JourneyNotFound(const std::string& name) {
+  return absl::NotFoundError(absl::StrCat("journey '", name, "' does not exist"));
+}
+
+absl::StatusOr<std::int64_t> InsertJourney(Connection& connection, const JourneyRecord& record) {
+  Query query = connection.Prepare(kInsert, record.name, Word(record.state), record.writer_id,
+                                   ToJson(record.readers), Word(record.input), record.next_sequence,
+                                   record.create_time_ns, record.start_time_ns, record.end_time_ns,
+                                   record.step_count, record.landmark_count,
+                                   record.fingerprint_count, ToJson(record.settings));
+  if (!query.Next()) {
+    return absl::AlreadyExistsError(absl::StrCat("journey '", record.name, "' already exists"));
+  }
+  return query.Integer(0);
+}
+
+absl::StatusOr<JourneyRow> FindJourney(Connection& connection, const std::string& name) {
+  Query query = connection.Prepare(kFind, name);
+  if (!query.Next()) return JourneyNotFound(name);
+  return ReadRow(query);
+}
+
+absl::StatusOr<std::vector<JourneyRecord>> ListJourneyRows(Connection& connection,
+                                                           const std::string& prefix,
+                                                           const std::string& after, int limit) {
+  std::vector<JourneyRecord> records;
+  Query query =
+      connection.Prepare(kList, after, prefix, absl::StrCat(prefix, kAfterAll), std::max(limit, 0));
+  while (query.Next()) {
+    HOMING_ASSIGN_OR_RETURN(JourneyRow row, ReadRow(query));
+    records.push_back(std::move(row.record));
+  }
+  return records;
+}
+
+absl::Status DeleteJourneyRow(Connection& connection, const std::string& name) {
+  return FoundIf(connection.Prepare(kDelete, name).Run(), name);
+}
+
+absl::Status SetJourneyState(Connection& connection, const std::string& name, JourneyState state) {
+  return FoundIf(connection.Prepare(kSetState, Word(state), name).Run(), name);
+}
+
+absl::Status SetJourneyWriter(Connection& connection, const std::string& name,
+                              const std::string& writer_id) {
+  return FoundIf(connection.Prepare(kSetWriter, writer_id, name).Run(), name);
+}
+
+}  // namespace homing::storage

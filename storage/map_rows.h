@@ -1,0 +1,20 @@
+// Whole maps from and to the rows of `landmarks` and `fingerprints`. Used in the body of a
+// transaction; throws SQLite::Exception, which ends the transaction. Source: own design.
+#ifndef STORAGE_MAP_ROWS_H_
+#define STORAGE_MAP_ROWS_H_
+
+#include "absl/status/statusor.h"
+#include "homing/journey/journey_map.h"
+#include "storage/connection.h"
+#include "storage/journey_rows.h"
+
+namespace homing::storage {
+
+// DATA_LOSS: the rows contradict each other.
+absl::StatusOr<JourneyMap> ReadMap(Connection& connection, const JourneyRow& journey);
+// All rows of a journey that has none yet.
+void WriteMap(Connection& connection, std::int64_t journey_id, const JourneyMap& map);
+
+}  // namespace homing::storage
+
+#endif  // STORAGE_MAP_ROWS_H_

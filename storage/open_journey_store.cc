@@ -1,0 +1,76 @@
+// Opening: URL, file, schema, durability.
+#include <algorithm>
+
+#include "absl/strings/str_cat.h"
+#include "homing/status_macros.h"
+#include "storage/connection.h"
+#include "storage/journey_store.h"
+#include "storage/query_connections.h"
+#include "storage/schema.h"
+#include "storage/sqlite_journey_store.h"
+
+namespace homing::storage {
+namespace {
+
+constexpr char kScheme[] = "sqlite:";
+constexpr char kInMemory[] = ":memory:";
+// Readers beside the writer.
+constexpr int kMaxQueryConnections = 4;
+
+absl::StatusOr<std::string> PathOf(const std::string& url) {
+  const std::string scheme = kScheme;
+  if (url.size() <= scheme.size() || url.compare(0, scheme.size(), scheme) != 0) {
+    return absl::InvalidArgumentError(
+        absl::StrCat("database is '", url, "': must be sqlite:PATH or sqlite::memory:"));
+  }
+  return url.substr(scheme.size());
+}
+
+// Every commit is on disk when it returns; the log of the last commits does not grow for ever.
+absl::Status MakeDurable(Connection& connection, const std::string& path) {
+  return connection.Run([&]() -> absl::Status {
+    const std::string mode = connection.Text("PRAGMA journal_mode=WAL");
+    if (mode != "wal" && path != kInMemory) {
+      return absl::FailedPreconditionError(absl::StrCat("store: journal_mode of '", path, "' is ",
+                                                        mode, ": the file system cannot do WAL"));
+    }
+    connection.Execute("PRAGMA synchronous=FULL");
+    connection.Execute("PRAGMA journal_size_limit=67108864");
+    return absl::OkStatus();
+  });
+}
+
+absl::Status LimitSize(Connection& connection, std::int64_t max_bytes) {
+  if (max_bytes <= 0) return absl::OkStatus();
+  return connection.Run([&] {
+    const std::int64_t page = connection.Integer("PRAGMA page_size");
+    connection.Integer(
+        absl::StrCat("PRAGMA max_page_count=", std::max<std::int64_t>(1, max_bytes / page)));
+    return absl::OkStatus();
+  });
+}
+
+}  // namespace
+
+absl::StatusOr<std::unique_ptr<JourneyStore>> OpenJourneyStore(const StoreOptions& options) {
+  HOMING_ASSIGN_OR_RETURN(const std::string path, PathOf(options.url));
+  HOMING_ASSIGN_OR_RETURN(
+      std::unique_ptr<Connection> writer,
+      Connection::Open(path, Connection::Access::kReadWrite, options.busy_timeout_ms));
+  std::unique_ptr<StoreLock> lock;
+  if (path != kInMemory) {
+    HOMING_ASSIGN_OR_RETURN(lock, StoreLock::Take(path));
+  }
+  HOMING_RETURN_IF_ERROR(Migrate(*writer));
+  HOMING_RETURN_IF_ERROR(MakeDurable(*writer, path));
+  HOMING_RETURN_IF_ERROR(LimitSize(*writer, options.max_bytes));
+  std::unique_ptr<QueryConnections> queries;
+  if (path != kInMemory) {
+    queries =
+        std::make_unique<QueryConnections>(path, options.busy_timeout_ms, kMaxQueryConnections);
+  }
+  return std::make_unique<SqliteJourneyStore>(std::move(lock), std::move(writer),
+                                              std::move(queries));
+}
+
+}  // namespace homing::storage

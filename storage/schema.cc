@@ -1,0 +1,136 @@
+#include "storage/schema.h"
+
+#include <array>
+
+#include "absl/strings/str_cat.h"
+#include "homing/status_macros.h"
+
+namespace homing::storage {
+namespace {
+
+// From version 0 (empty) to 1.
+constexpr char kVersion1[] = R"sql(
+CREATE TABLE journeys (
+  journey_id        INTEGER PRIMARY KEY,
+  name              TEXT    NOT NULL UNIQUE,
+  state             TEXT    NOT NULL CHECK (state IN ('ACTIVE', 'FINISHED')),
+  writer_id         TEXT    NOT NULL,
+  readers           TEXT    NOT NULL,
+  input             TEXT    NOT NULL CHECK (input IN ('UNKNOWN', 'FRAMES', 'FLOW_VECTORS')),
+  next_sequence     INTEGER NOT NULL,
+  create_time_ns    INTEGER NOT NULL,
+  start_time_ns     INTEGER NOT NULL,
+  end_time_ns       INTEGER NOT NULL,
+  step_count        INTEGER NOT NULL,
+  landmark_count    INTEGER NOT NULL,
+  fingerprint_count INTEGER NOT NULL,
+  settings          TEXT    NOT NULL
+) STRICT;
+
+CREATE TABLE landmarks (
+  journey_id        INTEGER NOT NULL REFERENCES journeys ON DELETE CASCADE,
+  landmark          INTEGER NOT NULL,
+  side              TEXT    NOT NULL CHECK (side IN ('LEFT', 'RIGHT')),
+  first_step        INTEGER NOT NULL,
+  last_step         INTEGER NOT NULL,
+  fingerprint_count INTEGER NOT NULL,
+  spread            REAL    NOT NULL,
+  PRIMARY KEY (journey_id, landmark)
+) STRICT, WITHOUT ROWID;
+
+-- fingerprint_id = journey_id * 2^27 + step * 4 + index within the step.
+CREATE TABLE fingerprints (
+  fingerprint_id INTEGER PRIMARY KEY,
+  landmark       INTEGER NOT NULL,
+  x              REAL    NOT NULL,
+  y              REAL    NOT NULL,
+  count          INTEGER NOT NULL,
+  journey_id     INTEGER AS (fingerprint_id >> 27) VIRTUAL,
+  step           INTEGER AS (fingerprint_id >> 2 & 0x1ffffff) VIRTUAL
+) STRICT;
+
+CREATE TRIGGER journey_deleted AFTER DELETE ON journeys BEGIN
+  DELETE FROM fingerprints
+  WHERE fingerprint_id BETWEEN OLD.journey_id << 27 AND (OLD.journey_id << 27) + 0x7ffffff;
+END;
+
+CREATE TABLE deviation_models (
+  name           TEXT    NOT NULL PRIMARY KEY,
+  mu             REAL    NOT NULL,
+  sigma          REAL    NOT NULL,
+  observations   INTEGER NOT NULL,
+  ks_distance    REAL    NOT NULL,
+  width          INTEGER NOT NULL,
+  height         INTEGER NOT NULL,
+  training       TEXT    NOT NULL,
+  create_time_ns INTEGER NOT NULL
+) STRICT, WITHOUT ROWID;
+
+CREATE VIEW journey_landmarks AS
+  SELECT j.name AS journey, l.landmark, l.side, l.first_step, l.last_step, l.fingerprint_count,
+         l.spread
+  FROM journeys j JOIN landmarks l USING (journey_id);
+
+CREATE VIEW journey_fingerprints AS
+  SELECT j.name AS journey, f.step, l.side, f.landmark, f.x, f.y, f.count
+  FROM journeys j
+  JOIN fingerprints f
+    ON f.fingerprint_id BETWEEN j.journey_id << 27 AND (j.journey_id << 27) + 0x7ffffff
+  JOIN landmarks l ON l.journey_id = j.journey_id AND l.landmark = f.landmark;
+)sql";
+
+// From version 1 to 2: flow profiles. Journeys recorded before have none.
+constexpr char kVersion2[] = R"sql(
+-- profile_id = journey_id * 2^27 + step * 4 + side (0 left, 1 right). cells: twelve bytes with a bit
+-- a cell that is not 0, then those cells.
+CREATE TABLE profiles (
+  profile_id INTEGER PRIMARY KEY,
+  cells      BLOB    NOT NULL,
+  journey_id INTEGER AS (profile_id >> 27) VIRTUAL,
+  step       INTEGER AS (profile_id >> 2 & 0x1ffffff) VIRTUAL,
+  side       TEXT    AS (CASE profile_id & 3 WHEN 0 THEN 'LEFT' ELSE 'RIGHT' END) VIRTUAL
+) STRICT;
+
+CREATE TRIGGER journey_profiles_deleted AFTER DELETE ON journeys BEGIN
+  DELETE FROM profiles
+  WHERE profile_id BETWEEN OLD.journey_id << 27 AND (OLD.journey_id << 27) + 0x7ffffff;
+END;
+)sql";
+
+// kMigrations[v] goes from version v to v + 1. Never changed once released.
+constexpr std::array<const char*, kSchemaVersion> kMigrations = {kVersion1, kVersion2};
+
+absl::Status CheckOwner(Connection& connection, std::int64_t version) {
+  const std::int64_t application = connection.Integer("PRAGMA application_id");
+  const bool empty = connection.Integer("SELECT count(*) FROM sqlite_schema") == 0;
+  if (application == kApplicationId || (empty && application == 0 && version == 0)) {
+    return absl::OkStatus();
+  }
+  return absl::FailedPreconditionError(absl::StrCat("store: application_id is ", application,
+                                                    ", not ", kApplicationId,
+                                                    ": the file is another program's database"));
+}
+
+}  // namespace
+
+absl::Status Migrate(Connection& connection) {
+  return connection.Write([&]() -> absl::Status {
+    const std::int64_t version = connection.Integer("PRAGMA user_version");
+    HOMING_RETURN_IF_ERROR(CheckOwner(connection, version));
+    if (version > kSchemaVersion || version < 0) {
+      return absl::FailedPreconditionError(
+          absl::StrCat("store: schema version is ", version, ", newer than this program's ",
+                       kSchemaVersion, ": use a newer homing-server"));
+    }
+    for (std::int64_t from = version; from < kSchemaVersion; ++from) {
+      connection.Execute(kMigrations[static_cast<std::size_t>(from)]);
+    }
+    if (version < kSchemaVersion) {
+      connection.Execute(absl::StrCat("PRAGMA application_id=", kApplicationId));
+      connection.Execute(absl::StrCat("PRAGMA user_version=", kSchemaVersion));
+    }
+    return absl::OkStatus();
+  });
+}
+
+}  // namespace homing::storage

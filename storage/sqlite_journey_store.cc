@@ -1,0 +1,115 @@
+#include "storage/sqlite_journey_store.h"
+
+#include "homing/status_macros.h"
+#include "storage/journey_rows.h"
+#include "storage/map_rows.h"
+#include "storage/model_rows.h"
+#include "storage/step_rows.h"
+
+namespace homing::storage {
+
+absl::Status SqliteJourneyStore::Write(const Body& body) {
+  std::lock_guard lock(write_mutex_);
+  return writer_->Write([&] { return body(*writer_); });
+}
+
+absl::Status SqliteJourneyStore::Read(const Body& body) {
+  if (queries_) return queries_->Read(body);
+  std::lock_guard lock(write_mutex_);
+  return writer_->Read([&] { return body(*writer_); });
+}
+
+template <typename Result, typename Query>
+absl::StatusOr<Result> SqliteJourneyStore::ReadOne(Query query) {
+  absl::StatusOr<Result> result = absl::InternalError("store: nothing read");
+  HOMING_RETURN_IF_ERROR(Read([&](Connection& connection) {
+    result = query(connection);
+    return result.status();
+  }));
+  return result;
+}
+
+absl::Status SqliteJourneyStore::CreateJourney(const JourneyRecord& record) {
+  JourneyRecord empty = record;
+  empty.step_count = 0;
+  empty.landmark_count = 0;
+  empty.fingerprint_count = 0;
+  return Write([&](Connection& connection) { return InsertJourney(connection, empty).status(); });
+}
+
+absl::StatusOr<JourneyRecord> SqliteJourneyStore::GetJourney(const std::string& name) {
+  return ReadOne<JourneyRecord>([&](Connection& connection) -> absl::StatusOr<JourneyRecord> {
+    HOMING_ASSIGN_OR_RETURN(JourneyRow row, FindJourney(connection, name));
+    return std::move(row.record);
+  });
+}
+
+absl::StatusOr<std::vector<JourneyRecord>> SqliteJourneyStore::ListJourneys(
+    const std::string& prefix, const std::string& after, int limit) {
+  return ReadOne<std::vector<JourneyRecord>>(
+      [&](Connection& connection) { return ListJourneyRows(connection, prefix, after, limit); });
+}
+
+absl::Status SqliteJourneyStore::DeleteJourney(const std::string& name) {
+  return Write([&](Connection& connection) { return DeleteJourneyRow(connection, name); });
+}
+
+absl::Status SqliteJourneyStore::FinishJourney(const std::string& name) {
+  return Write([&](Connection& connection) {
+    return SetJourneyState(connection, name, JourneyState::kFinished);
+  });
+}
+
+absl::Status SqliteJourneyStore::SetWriter(const std::string& name, const std::string& writer_id) {
+  return Write(
+      [&](Connection& connection) { return SetJourneyWriter(connection, name, writer_id); });
+}
+
+std::vector<absl::Status> SqliteJourneyStore::AppendSteps(
+    const std::vector<JourneyAppend>& appends) {
+  std::vector<absl::Status> statuses;
+  statuses.reserve(appends.size());
+  const absl::Status transaction = Write([&](Connection& connection) {
+    for (const JourneyAppend& append : appends) statuses.push_back(AppendStep(connection, append));
+    return absl::OkStatus();
+  });
+  if (!transaction.ok()) statuses.assign(appends.size(), transaction);
+  return statuses;
+}
+
+absl::StatusOr<JourneyMap> SqliteJourneyStore::LoadMap(const std::string& name) {
+  return ReadOne<JourneyMap>([&](Connection& connection) -> absl::StatusOr<JourneyMap> {
+    HOMING_ASSIGN_OR_RETURN(JourneyRow row, FindJourney(connection, name));
+    return ReadMap(connection, row);
+  });
+}
+
+absl::Status SqliteJourneyStore::ImportJourney(const JourneyRecord& record, const JourneyMap& map) {
+  HOMING_RETURN_IF_ERROR(Validate(record.settings));
+  JourneyRecord finished = record;
+  finished.state = JourneyState::kFinished;
+  finished.step_count = map.step_count();
+  finished.landmark_count = static_cast<std::int32_t>(map.landmarks().size());
+  finished.fingerprint_count = static_cast<std::int64_t>(map.all_fingerprints().size());
+  return Write([&](Connection& connection) -> absl::Status {
+    HOMING_ASSIGN_OR_RETURN(std::int64_t id, InsertJourney(connection, finished));
+    WriteMap(connection, id, map);
+    return absl::OkStatus();
+  });
+}
+
+absl::Status SqliteJourneyStore::CreateModel(const StoredModel& model) {
+  return Write([&](Connection& connection) { return InsertModel(connection, model); });
+}
+
+absl::StatusOr<StoredModel> SqliteJourneyStore::GetModel(const std::string& name) {
+  return ReadOne<StoredModel>([&](Connection& connection) { return FindModel(connection, name); });
+}
+
+absl::StatusOr<std::vector<StoredModel>> SqliteJourneyStore::ListModels(const std::string& after,
+                                                                        int limit) {
+  return ReadOne<std::vector<StoredModel>>(
+      [&](Connection& connection) { return ListModelRows(connection, after, limit); });
+}
+
+}  // namespace homing::storage

@@ -1,0 +1,58 @@
+// The store on SQLite: one connection writes, others read beside it. Source: own design.
+#ifndef STORAGE_SQLITE_JOURNEY_STORE_H_
+#define STORAGE_SQLITE_JOURNEY_STORE_H_
+
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "storage/connection.h"
+#include "storage/journey_store.h"
+#include "storage/query_connections.h"
+#include "storage/store_lock.h"
+
+namespace homing::storage {
+
+class SqliteJourneyStore final : public JourneyStore {
+ public:
+  // `lock` and `queries` are null for a store in memory, which only its one connection sees.
+  SqliteJourneyStore(std::unique_ptr<StoreLock> lock, std::unique_ptr<Connection> writer,
+                     std::unique_ptr<QueryConnections> queries)
+      : lock_(std::move(lock)), writer_(std::move(writer)), queries_(std::move(queries)) {}
+
+  absl::Status CreateJourney(const JourneyRecord& record) override;
+  absl::StatusOr<JourneyRecord> GetJourney(const std::string& name) override;
+  absl::StatusOr<std::vector<JourneyRecord>> ListJourneys(const std::string& prefix,
+                                                          const std::string& after,
+                                                          int limit) override;
+  absl::Status DeleteJourney(const std::string& name) override;
+  absl::Status FinishJourney(const std::string& name) override;
+  absl::Status SetWriter(const std::string& name, const std::string& writer_id) override;
+  std::vector<absl::Status> AppendSteps(const std::vector<JourneyAppend>& appends) override;
+  absl::StatusOr<JourneyMap> LoadMap(const std::string& name) override;
+  absl::Status ImportJourney(const JourneyRecord& record, const JourneyMap& map) override;
+  absl::Status CreateModel(const StoredModel& model) override;
+  absl::StatusOr<StoredModel> GetModel(const std::string& name) override;
+  absl::StatusOr<std::vector<StoredModel>> ListModels(const std::string& after, int limit) override;
+
+ private:
+  using Body = std::function<absl::Status(Connection&)>;
+  absl::Status Write(const Body& body);
+  absl::Status Read(const Body& body);
+  // What `query` gives in one read transaction.
+  template <typename Result, typename Query>
+  absl::StatusOr<Result> ReadOne(Query query);
+
+  // Let go of last.
+  const std::unique_ptr<StoreLock> lock_;
+  std::mutex write_mutex_;
+  // Guarded by write_mutex_.
+  std::unique_ptr<Connection> writer_;
+  std::unique_ptr<QueryConnections> queries_;
+};
+
+}  // namespace homing::storage
+
+#endif  // STORAGE_SQLITE_JOURNEY_STORE_H_

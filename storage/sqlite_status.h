@@ -1,0 +1,19 @@
+// The one place where SQLite's codes become a Status. Source: own design.
+#ifndef STORAGE_SQLITE_STATUS_H_
+#define STORAGE_SQLITE_STATUS_H_
+
+#include <SQLiteCpp/SQLiteCpp.h>
+
+#include <string>
+
+#include "absl/status/status.h"
+
+namespace homing::storage {
+
+// `code` is a primary or extended result code of SQLite other than SQLITE_OK.
+absl::Status StatusFromSqlite(int code, const std::string& message);
+absl::Status StatusFromException(const SQLite::Exception& exception);
+
+}  // namespace homing::storage
+
+#endif  // STORAGE_SQLITE_STATUS_H_

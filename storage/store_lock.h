@@ -1,0 +1,31 @@
+// One server a store: what is in memory must be what is on the disk. Source: own design.
+#ifndef STORAGE_STORE_LOCK_H_
+#define STORAGE_STORE_LOCK_H_
+
+#include <memory>
+#include <string>
+
+#include "absl/status/statusor.h"
+
+namespace homing::storage {
+
+// Holds the file beside the store, "PATH-lock", for as long as it lives; the system lets go of it
+// when the process ends, however it ends. Other programs may read the store all the while.
+class StoreLock {
+ public:
+  // UNAVAILABLE: another process (or another store of this one) has it. FAILED_PRECONDITION: the
+  // file cannot be opened.
+  static absl::StatusOr<std::unique_ptr<StoreLock>> Take(const std::string& store_path);
+  ~StoreLock();
+  StoreLock(const StoreLock&) = delete;
+  StoreLock& operator=(const StoreLock&) = delete;
+
+ private:
+  explicit StoreLock(int file) : file_(file) {}
+
+  const int file_;
+};
+
+}  // namespace homing::storage
+
+#endif  // STORAGE_STORE_LOCK_H_
