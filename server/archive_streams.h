@@ -1,0 +1,69 @@
+// JourneyService.ExportJourney and ImportJourney: a map as one file, in chunks.
+// Source: own design.
+#ifndef SERVER_ARCHIVE_STREAMS_H_
+#define SERVER_ARCHIVE_STREAMS_H_
+
+#include <grpcpp/support/server_callback.h>
+
+#include <memory>
+#include <string>
+
+#include "absl/status/status.h"
+#include "homing/v1/journey_service.pb.h"
+#include "server/service_core.h"
+
+namespace homing::server {
+
+// Holds itself until gRPC has done with it.
+class ExportStream final : public grpc::ServerWriteReactor<v1::ExportJourneyResponse>,
+                           public OpenStream,
+                           public std::enable_shared_from_this<ExportStream> {
+ public:
+  ExportStream(ServiceCore* core, const std::string& name) : core_(core), name_(name) {}
+
+  void Open();
+  // A file under way is let finish; the server's own deadline ends it.
+  void Drain() override {}
+  void OnWriteDone(bool ok) override;
+  void OnDone() override;
+
+ private:
+  absl::Status Encode();
+  void WriteNext();
+
+  ServiceCore* const core_;
+  const std::string name_;
+  std::shared_ptr<ExportStream> self_;
+  std::string file_;
+  std::size_t written_ = 0;
+  v1::ExportJourneyResponse chunk_;
+};
+
+class ImportStream final : public grpc::ServerReadReactor<v1::ImportJourneyRequest>,
+                           public OpenStream,
+                           public std::enable_shared_from_this<ImportStream> {
+ public:
+  ImportStream(ServiceCore* core, v1::ImportJourneyResponse* response)
+      : core_(core), response_(response) {}
+
+  void Open();
+  void Drain() override {}
+  void OnReadDone(bool ok) override;
+  void OnDone() override;
+
+ private:
+  absl::Status Take(const v1::ImportJourneyRequest& request);
+  absl::Status Store();
+  void Complete();
+
+  ServiceCore* const core_;
+  v1::ImportJourneyResponse* const response_;
+  std::shared_ptr<ImportStream> self_;
+  v1::ImportJourneyRequest request_;
+  std::string name_;
+  std::string file_;
+};
+
+}  // namespace homing::server
+
+#endif  // SERVER_ARCHIVE_STREAMS_H_

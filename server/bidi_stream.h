@@ -1,0 +1,205 @@
+// A two-way stream whose messages are handled in order on the pool, with a bounded read-ahead.
+// Source: own design.
+#ifndef SERVER_BIDI_STREAM_H_
+#define SERVER_BIDI_STREAM_H_
+
+#include <grpcpp/support/server_callback.h>
+
+#include <deque>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <utility>
+
+#include "server/service_core.h"
+#include "server/status_conversion.h"
+#include "server/stream_registry.h"
+
+namespace homing::server {
+
+// Made by OpenBidiStream; holds itself until gRPC has done with it. gRPC's threads only queue;
+// reading stops while kReadAhead messages or kReadAheadBytes bytes are not yet answered, so that
+// HTTP/2 flow control holds the client back.
+template <typename Request, typename Response>
+class BidiStream : public grpc::ServerBidiReactor<Request, Response>,
+                   public OpenStream,
+                   public std::enable_shared_from_this<BidiStream<Request, Response>> {
+ public:
+  explicit BidiStream(ServiceCore* core)
+      : core_(core), strand_(std::make_shared<Strand>(&core->pool)) {}
+
+  void Open() {
+    self_ = this->shared_from_this();
+    const bool admitted = core_->streams.Add(self_);
+    const std::lock_guard lock(mutex_);
+    if (admitted) {
+      ReadNext();
+    } else {
+      end_status_ = DrainingError();
+      FinishIfOver();
+    }
+  }
+
+  void Drain() override {
+    strand_->Post([self = this->shared_from_this()] { self->HandleDrain(); });
+  }
+
+  void OnReadDone(bool ok) override {
+    const std::lock_guard lock(mutex_);
+    reading_ = false;
+    if (!ok) {
+      half_closed_ = true;
+      FinishIfOver();
+      return;
+    }
+    const std::size_t bytes = incoming_->ByteSizeLong();
+    unanswered_.push_back(bytes);
+    unanswered_bytes_ += bytes;
+    strand_->Post([self = this->shared_from_this(), request = std::move(incoming_)] {
+      self->HandleGuarded(*request);
+    });
+    ReadNext();
+  }
+
+  void OnWriteDone(bool ok) override {
+    const std::lock_guard lock(mutex_);
+    writing_ = false;
+    writes_.pop_front();
+    if (!ok) {
+      Break();
+    }
+    WriteNext();
+    ReadNext();
+    FinishIfOver();
+  }
+
+  void OnCancel() override {
+    const std::lock_guard lock(mutex_);
+    Break();
+    FinishIfOver();
+  }
+
+  void OnDone() override {
+    const std::shared_ptr<BidiStream> self = std::move(self_);
+    strand_->Post([self] { self->HandleDone(); });
+    core_->streams.Remove(self);
+  }
+
+ protected:
+  // On the pool, one at a time, in order. Each request comes to one Answer, one NoAnswer or an End.
+  virtual absl::Status Handle(const Request& request) = 0;
+  virtual void HandleDrain() { End(DrainingError()); }
+  // Let go of what belongs to the stream.
+  virtual void HandleDone() {}
+
+  // Any thread.
+  void Answer(Response response) {
+    const std::lock_guard lock(mutex_);
+    if (end_status_ || finished_) {
+      return;
+    }
+    writes_.push_back(std::move(response));
+    Settle();
+    WriteNext();
+    ReadNext();
+  }
+  void NoAnswer() {
+    const std::lock_guard lock(mutex_);
+    Settle();
+    ReadNext();
+    FinishIfOver();
+  }
+  // After the answers given so far.
+  void End(const absl::Status& status) {
+    const std::lock_guard lock(mutex_);
+    if (!end_status_) {
+      end_status_ = status;
+    }
+    FinishIfOver();
+  }
+
+  ServiceCore* core() { return core_; }
+
+ private:
+  static constexpr std::size_t kReadAhead = 8;
+  static constexpr std::size_t kReadAheadBytes = 8 << 20;
+
+  void HandleGuarded(const Request& request) {
+    {
+      const std::lock_guard lock(mutex_);
+      if (end_status_ || finished_) {
+        return;
+      }
+    }
+    const absl::Status status = Guarded([&] { return Handle(request); });
+    if (!status.ok()) {
+      End(status);
+    }
+  }
+
+  // The functions below: REQUIRES mutex_.
+  void ReadNext() {
+    const bool full =
+        unanswered_.size() + writes_.size() >= kReadAhead || unanswered_bytes_ >= kReadAheadBytes;
+    if (reading_ || half_closed_ || end_status_ || finished_ || full) {
+      return;
+    }
+    reading_ = true;
+    incoming_ = std::make_shared<Request>();
+    this->StartRead(incoming_.get());
+  }
+
+  void WriteNext() {
+    if (!writing_ && !writes_.empty() && !finished_) {
+      writing_ = true;
+      this->StartWrite(&writes_.front());
+    }
+  }
+
+  // The oldest request is answered.
+  void Settle() {
+    if (!unanswered_.empty()) {
+      unanswered_bytes_ -= unanswered_.front();
+      unanswered_.pop_front();
+    }
+  }
+
+  // The link is gone: nothing more can be written.
+  void Break() {
+    if (!end_status_) {
+      end_status_ = absl::CancelledError("the client went away");
+    }
+    if (!writes_.empty()) {
+      writes_.erase(writes_.begin() + (writing_ ? 1 : 0), writes_.end());
+    }
+  }
+
+  void FinishIfOver() {
+    const bool answered = half_closed_ && unanswered_.empty();
+    if (finished_ || writing_ || !writes_.empty() || !(end_status_ || answered)) {
+      return;
+    }
+    finished_ = true;
+    this->Finish(ToGrpcStatus(end_status_.value_or(absl::OkStatus())));
+  }
+
+  ServiceCore* const core_;
+  const std::shared_ptr<Strand> strand_;
+  std::shared_ptr<BidiStream> self_;
+
+  std::mutex mutex_;
+  std::shared_ptr<Request> incoming_;
+  std::deque<Response> writes_;
+  // Sizes of the requests read and not yet answered, bytes.
+  std::deque<std::size_t> unanswered_;
+  std::size_t unanswered_bytes_ = 0;
+  std::optional<absl::Status> end_status_;
+  bool reading_ = false;
+  bool writing_ = false;
+  bool half_closed_ = false;
+  bool finished_ = false;
+};
+
+}  // namespace homing::server
+
+#endif  // SERVER_BIDI_STREAM_H_

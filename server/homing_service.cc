@@ -1,0 +1,30 @@
+#include "server/homing_service.h"
+
+#include "homing/status_macros.h"
+#include "server/localize_stream.h"
+#include "server/message_conversion.h"
+#include "server/unary_call.h"
+
+namespace homing::server {
+
+grpc::ServerUnaryReactor* HomingServiceHandler::MatchLandmarks(
+    grpc::CallbackServerContext* context, const v1::MatchLandmarksRequest* request,
+    v1::MatchLandmarksResponse* response) {
+  return ServeUnary(core_, context, [core = core_, request, response]() -> absl::Status {
+    HOMING_ASSIGN_OR_RETURN(const LandmarkQuery query,
+                            DecodeLandmarkQuery(*request, core->options.wire));
+    HOMING_ASSIGN_OR_RETURN(const LandmarkQueryResult result,
+                            server::MatchLandmarks(&core->catalog, query, core->options.decode));
+    *response = EncodeQueryResult(result);
+    return absl::OkStatus();
+  });
+}
+
+grpc::ServerBidiReactor<v1::LocalizeRequest, v1::LocalizeResponse>* HomingServiceHandler::Localize(
+    grpc::CallbackServerContext* /*context*/) {
+  const auto stream = std::make_shared<LocalizeStream>(core_);
+  stream->Open();
+  return stream.get();
+}
+
+}  // namespace homing::server

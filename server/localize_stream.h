@@ -1,0 +1,30 @@
+// HomingService.Localize. Source: own design.
+#ifndef SERVER_LOCALIZE_STREAM_H_
+#define SERVER_LOCALIZE_STREAM_H_
+
+#include <memory>
+
+#include "homing/v1/homing_service.pb.h"
+#include "server/bidi_stream.h"
+#include "server/session/homing_session.h"
+
+namespace homing::server {
+
+class LocalizeStream final : public BidiStream<v1::LocalizeRequest, v1::LocalizeResponse> {
+ public:
+  explicit LocalizeStream(ServiceCore* core) : BidiStream(core) {}
+
+ protected:
+  absl::Status Handle(const v1::LocalizeRequest& request) override;
+  void HandleDone() override { session_.reset(); }
+
+ private:
+  absl::Status Begin(const v1::LocalizeConfig& config);
+  absl::Status Localize(const v1::Observation& observation);
+
+  std::unique_ptr<HomingSession> session_;
+};
+
+}  // namespace homing::server
+
+#endif  // SERVER_LOCALIZE_STREAM_H_

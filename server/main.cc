@@ -1,0 +1,71 @@
+// homing-server: options, signals, and the server's life.
+#include <csignal>
+#include <cstdio>
+#include <iostream>
+#include <memory>
+
+#include <spdlog/sinks/stdout_color_sinks.h>
+#include <spdlog/spdlog.h>
+
+#include "server/health_check.h"
+#include "server/homing_server.h"
+#include "server/server_options.h"
+
+namespace {
+
+using homing::server::HomingServer;
+using homing::server::ServerCommand;
+
+int Tell(const absl::Status& status) {
+  if (status.ok()) {
+    return 0;
+  }
+  std::cerr << "homing-server: " << std::string(status.message()) << '\n';
+  return 1;
+}
+
+// Blocked in every thread that comes later, so that only Serve sees them.
+sigset_t BlockStopSignals() {
+  sigset_t signals;
+  sigemptyset(&signals);
+  sigaddset(&signals, SIGTERM);
+  sigaddset(&signals, SIGINT);
+  pthread_sigmask(SIG_BLOCK, &signals, nullptr);
+  return signals;
+}
+
+int Serve(const homing::server::ServerOptions& options) {
+  const sigset_t signals = BlockStopSignals();
+  const auto server = HomingServer::Start(options);
+  if (!server.ok()) {
+    return Tell(server.status());
+  }
+  std::cout << "listening on " << (*server)->address() << std::endl;
+  int signal = 0;
+  sigwait(&signals, &signal);
+  spdlog::info("signal {}: draining", signal);
+  (*server)->Drain();
+  spdlog::info("stopped");
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  spdlog::set_default_logger(spdlog::stderr_color_mt("homing-server"));
+  const ServerCommand command = homing::server::ParseCommandLine(argc, argv);
+  switch (command.action) {
+    case ServerCommand::Action::kExit:
+      return command.exit_code;
+    case ServerCommand::Action::kHealthCheck:
+      return Tell(homing::server::CheckHealth(command.health_server, command.health_ca));
+    case ServerCommand::Action::kCheckConfig: {
+      const int result = Tell(homing::server::Validate(command.options));
+      std::cout << (result == 0 ? homing::server::ToToml(command.options) : "");
+      return result;
+    }
+    case ServerCommand::Action::kServe:
+      return Serve(command.options);
+  }
+  return 2;
+}

@@ -1,0 +1,68 @@
+#include "server/record_stream.h"
+
+#include <utility>
+
+#include "absl/strings/str_cat.h"
+#include "homing/range_check.h"
+#include "homing/status_macros.h"
+#include "server/message_conversion.h"
+
+namespace homing::server {
+
+absl::Status RecordStream::Handle(const v1::RecordJourneyRequest& request) {
+  switch (request.request_case()) {
+    case v1::RecordJourneyRequest::kConfig:
+      return Begin(request.config());
+    case v1::RecordJourneyRequest::kObservation:
+      return Record(request.observation());
+    case v1::RecordJourneyRequest::REQUEST_NOT_SET:
+      break;
+  }
+  return absl::InvalidArgumentError("request is empty; it must be config or observation");
+}
+
+absl::Status RecordStream::Begin(const v1::RecordingConfig& config) {
+  if (session_) {
+    return absl::InvalidArgumentError("config came twice; only the first message is config");
+  }
+  const std::weak_ptr<BidiStream> weak = weak_from_this();
+  RecordingListener listener;
+  listener.answer = [weak](const RecordingAnswer& answer) {
+    if (const auto stream = std::static_pointer_cast<RecordStream>(weak.lock())) {
+      stream->Answer(EncodeRecordingAnswer(answer));
+    }
+  };
+  listener.end = [weak](const absl::Status& status) {
+    if (const auto stream = std::static_pointer_cast<RecordStream>(weak.lock())) {
+      stream->End(status);
+    }
+  };
+  HOMING_ASSIGN_OR_RETURN(
+      session_, RecordingSession::Open(core()->recording(), config.journey(), config.writer_id(),
+                                       core()->options.clock(), std::move(listener)));
+  return absl::OkStatus();
+}
+
+absl::Status RecordStream::Record(const v1::Observation& observation) {
+  if (!session_) {
+    return absl::InvalidArgumentError("observation came first; the first message must be config");
+  }
+  const auto decoded = wire::FromProto(observation, core()->options.wire);
+  if (decoded.ok()) {
+    session_->Record(*decoded, core()->options.clock());
+  } else {
+    session_->Reject(
+        Within(absl::StrCat("observation[", observation.sequence(), "]"), decoded.status()));
+  }
+  return absl::OkStatus();
+}
+
+void RecordStream::HandleDrain() {
+  if (session_) {
+    session_->Reject(DrainingError());
+  } else {
+    End(DrainingError());
+  }
+}
+
+}  // namespace homing::server

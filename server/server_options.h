@@ -1,0 +1,61 @@
+// Options of homing-server: command line before environment (HOMING_*) before TOML file.
+// Source: own design.
+#ifndef SERVER_SERVER_OPTIONS_H_
+#define SERVER_SERVER_OPTIONS_H_
+
+#include <cstdint>
+#include <string>
+
+#include "absl/status/status.h"
+#include "absl/status/statusor.h"
+
+namespace homing::server {
+
+struct ServerOptions {
+  // Host and port; port 0 picks one.
+  std::string listen = "127.0.0.1:50551";
+  // "sqlite:PATH".
+  std::string database = "sqlite:homing.db";
+  // PEM files; both or neither. With a client CA, clients must show a certificate of it.
+  std::string tls_cert;
+  std::string tls_key;
+  std::string tls_client_ca;
+  // Largest message taken, bytes. [64 KiB, 256 MiB].
+  std::int64_t max_message = std::int64_t{16} << 20;
+  // Largest frame, pixels. [256, 268'435'456].
+  std::int64_t max_pixels = std::int64_t{16} << 20;
+  // Most flow vectors of one camera at one instant. [1, 10'000'000].
+  int max_vectors = 100'000;
+  // Threads that compute; 0: one a core. [0, 1024].
+  int workers = 0;
+  // How long streams may take to end when the server is told to stop, ms. [0, 600'000].
+  int drain_ms = 5000;
+  // Listen off loopback without TLS.
+  bool insecure = false;
+  // Do not describe the API to clients that ask.
+  bool no_reflection = false;
+};
+
+// INVALID_ARGUMENT naming field, value and limit; off loopback without TLS is one.
+absl::Status Validate(const ServerOptions& options);
+
+// As the TOML file would have it, a line a key.
+std::string ToToml(const ServerOptions& options);
+
+// What the command line asks for.
+struct ServerCommand {
+  enum class Action { kServe, kCheckConfig, kHealthCheck, kExit };
+  Action action = Action::kServe;
+  ServerOptions options;
+  // kHealthCheck: whom to ask, and the CA of its certificate (empty: no TLS).
+  std::string health_server;
+  std::string health_ca;
+  // kExit: what main returns (help and version were printed, or an error told).
+  int exit_code = 0;
+};
+
+ServerCommand ParseCommandLine(int argc, const char* const* argv);
+
+}  // namespace homing::server
+
+#endif  // SERVER_SERVER_OPTIONS_H_

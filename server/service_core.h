@@ -1,0 +1,60 @@
+// What all handlers work with. Source: own design.
+#ifndef SERVER_SERVICE_CORE_H_
+#define SERVER_SERVICE_CORE_H_
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+
+#include "homing/image/frame.h"
+#include "proto/wire/observation_conversion.h"
+#include "server/session/journey_catalog.h"
+#include "server/session/model_catalog.h"
+#include "server/session/recording_session.h"
+#include "server/session/worker_pool.h"
+#include "server/stream_registry.h"
+#include "storage/commit_queue.h"
+#include "storage/journey_store.h"
+
+namespace homing::server {
+
+struct CoreOptions {
+  // Threads that compute. [1, 1024].
+  int workers = 2;
+  DecodeLimits decode;
+  wire::WireLimits wire;
+  // Steady time for leases.
+  std::function<TimePoint()> clock = [] { return std::chrono::steady_clock::now(); };
+};
+
+// Members end in the reverse order: first the workers, then the commits that wait, then the store.
+struct ServiceCore {
+  ServiceCore(std::unique_ptr<storage::JourneyStore> opened, const CoreOptions& core_options)
+      : options(core_options),
+        store(std::move(opened)),
+        catalog(store.get()),
+        models(store.get()),
+        queue(store.get()),
+        pool(core_options.workers) {}
+
+  RecordingContext recording() { return {&catalog, &queue, options.decode}; }
+
+  const CoreOptions options;
+  const std::unique_ptr<storage::JourneyStore> store;
+  JourneyCatalog catalog;
+  ModelCatalog models;
+  storage::CommitQueue queue;
+  StreamRegistry streams;
+  WorkerPool pool;
+};
+
+// Server's clock, nanoseconds since the epoch.
+inline std::int64_t WallClockNs() {
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(
+             std::chrono::system_clock::now().time_since_epoch())
+      .count();
+}
+
+}  // namespace homing::server
+
+#endif  // SERVER_SERVICE_CORE_H_

@@ -1,0 +1,27 @@
+// A word for programs, carried by a status beside its message. Source: own design.
+#ifndef SERVER_SESSION_ERROR_REASON_H_
+#define SERVER_SESSION_ERROR_REASON_H_
+
+#include <map>
+#include <string>
+
+#include "absl/status/status.h"
+
+namespace homing::server {
+
+struct ErrorReason {
+  // UPPER_SNAKE_CASE.
+  std::string reason;
+  // What a program needs to act on it, for example {"due", "7"}.
+  std::map<std::string, std::string> metadata;
+};
+
+// The same error, with a reason. REQUIRES: !status.ok().
+absl::Status WithReason(absl::Status status, const ErrorReason& reason);
+
+// The reason given, or else one that follows from the code.
+ErrorReason ReasonOf(const absl::Status& status);
+
+}  // namespace homing::server
+
+#endif  // SERVER_SESSION_ERROR_REASON_H_

@@ -1,0 +1,136 @@
+#include "server/session/landmark_query.h"
+
+#include <cmath>
+#include <utility>
+
+#include "absl/strings/str_cat.h"
+#include "homing/flow/motion.h"
+#include "homing/landmark/landmark_finder.h"
+#include "homing/range_check.h"
+#include "homing/status_macros.h"
+#include "server/session/journey_selection.h"
+
+namespace homing::server {
+namespace {
+
+constexpr std::size_t kMaxFingerprints = 100;
+
+std::string NameOf(std::size_t camera) { return camera == 0 ? "left" : "right"; }
+
+absl::Status CheckFingerprints(const SeenFingerprints& seen) {
+  if (seen.landmarks.size() > kMaxFingerprints) {
+    return absl::InvalidArgumentError(
+        absl::StrCat("fingerprints has ", seen.landmarks.size(), " entries; at most 100"));
+  }
+  for (const SeenLandmark& landmark : seen.landmarks) {
+    if (!std::isfinite(landmark.x) || !std::isfinite(landmark.y) || landmark.count < 0) {
+      return absl::InvalidArgumentError(
+          absl::StrCat("fingerprints has x ", landmark.x, ", y ", landmark.y, ", count ",
+                       landmark.count, "; they must be finite, the count not negative"));
+    }
+  }
+  return absl::OkStatus();
+}
+
+// Sizes of the images behind the views; a pair of frames is measured on its first one.
+absl::StatusOr<QueryRobot> MeasureRobot(const LandmarkQuery& query, const DecodeLimits& limits) {
+  QueryRobot robot;
+  robot.travel = query.travel;
+  for (std::size_t side = 0; side < query.views.size(); ++side) {
+    if (const auto* pair = std::get_if<FramePair>(&query.views[side])) {
+      const auto image = DecodeGray(pair->first, limits);
+      HOMING_RETURN_IF_ERROR(Within(absl::StrCat(NameOf(side), ": first"), image.status()));
+      robot.widths[side] = image->cols;
+      robot.heights[side] = image->rows;
+    } else if (const auto* flow = std::get_if<FlowField>(&query.views[side])) {
+      robot.widths[side] = flow->width;
+      robot.heights[side] = flow->height;
+    } else if (const auto* seen = std::get_if<SeenFingerprints>(&query.views[side])) {
+      HOMING_RETURN_IF_ERROR(CheckFingerprints(*seen));
+      robot.widths[side] = seen->width;
+      robot.heights[side] = seen->height;
+    }
+  }
+  return robot;
+}
+
+// Raw flow of one camera (II-B); none for fingerprints and an absent camera.
+absl::StatusOr<std::optional<FlowField>> FlowOf(const QueryView& view, const FlowOptions& options,
+                                                const DecodeLimits& limits) {
+  ObservationFlow tracker(options, limits);
+  Observation observation;
+  if (const auto* pair = std::get_if<FramePair>(&view)) {
+    observation.views[0] = pair->first;
+    HOMING_RETURN_IF_ERROR(tracker.Compute(observation).status());
+    observation.views[0] = pair->second;
+    observation.sequence = 1;
+  } else if (const auto* flow = std::get_if<FlowField>(&view)) {
+    observation.views[0] = *flow;
+  } else {
+    return std::nullopt;
+  }
+  HOMING_ASSIGN_OR_RETURN(ObservedFlow observed, tracker.Compute(observation));
+  return std::move(observed.fields[0]);
+}
+
+struct SeenNow {
+  std::optional<Motion> motion;
+  SeenSides sides;
+};
+
+// Views -> flow -> motion -> landmarks, sides turned to those of the route.
+absl::StatusOr<SeenNow> See(const LandmarkQuery& query, const LocalizerOptions& options,
+                            const DecodeLimits& limits) {
+  SeenNow now;
+  ObservedFlow flow;
+  for (std::size_t side = 0; side < query.views.size(); ++side) {
+    const auto raw = FlowOf(query.views[side], options.flow, limits);
+    HOMING_RETURN_IF_ERROR(Within(NameOf(side), raw.status()));
+    if (*raw) {
+      flow.fields[side] = Rectify(**raw, options.cameras[side]);
+    }
+  }
+  if (flow.fields[0] || flow.fields[1]) {
+    now.motion = ClassifyMotion(flow, options.cameras);
+  }
+  for (std::size_t side = 0; side < query.views.size(); ++side) {
+    const auto route =
+        static_cast<std::size_t>(RouteSide(Side{static_cast<int>(side)}, query.travel));
+    if (const auto* seen = std::get_if<SeenFingerprints>(&query.views[side])) {
+      now.sides[route] = seen->landmarks;
+    } else if (flow.fields[side] && now.motion == Motion::kMoving) {
+      now.sides[route] = FindLandmarks(*flow.fields[side], options.landmark);
+    }
+  }
+  return now;
+}
+
+}  // namespace
+
+absl::StatusOr<LandmarkQueryResult> MatchLandmarks(JourneyCatalog* catalog,
+                                                   const LandmarkQuery& query,
+                                                   const DecodeLimits& limits) {
+  HOMING_ASSIGN_OR_RETURN(const JourneyName pattern, ParseJourneyPattern(query.journey, "journey"));
+  HOMING_RETURN_IF_ERROR(Validate(query.match));
+  if (query.views[0].index() == 0 && query.views[1].index() == 0) {
+    return absl::InvalidArgumentError("left and right are both empty; a camera is required");
+  }
+  HOMING_ASSIGN_OR_RETURN(const QueryRobot robot, MeasureRobot(query, limits));
+  HOMING_ASSIGN_OR_RETURN(const LiveJourneys covered, catalog->Resolve(pattern));
+  HOMING_ASSIGN_OR_RETURN(const JourneySelection selection,
+                          SelectJourneys(covered, pattern, robot));
+  HOMING_ASSIGN_OR_RETURN(SeenNow now, See(query, selection.options, limits));
+
+  LandmarkQueryResult result{now.motion, {}, std::move(now.sides)};
+  const MapsLock lock(selection.journeys);
+  std::vector<JourneyRef> refs;
+  for (const std::shared_ptr<LiveJourney>& journey : selection.journeys) {
+    refs.push_back({&journey->name(), &journey->map()});
+  }
+  for (const Match& match : FindMatches(refs, result.seen, query.match)) {
+    result.matches.push_back({*refs[static_cast<std::size_t>(match.journey)].name, match});
+  }
+  return result;
+}
+
+}  // namespace homing::server

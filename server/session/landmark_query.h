@@ -1,0 +1,61 @@
+// One shot: which stored landmarks resemble what two frames, flow vectors or fingerprints show?
+// Source: paper III (eqs 11 to 15).
+#ifndef SERVER_SESSION_LANDMARK_QUERY_H_
+#define SERVER_SESSION_LANDMARK_QUERY_H_
+
+#include <array>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "absl/status/statusor.h"
+#include "homing/localization/matcher.h"
+#include "server/session/journey_catalog.h"
+
+namespace homing::server {
+
+struct FramePair {
+  Frame first;
+  Frame second;
+};
+
+struct SeenFingerprints {
+  // Size of the image they come from, pixels; 0: not checked.
+  int width = 0;
+  int height = 0;
+  std::vector<SeenLandmark> landmarks;
+};
+
+using QueryView = std::variant<std::monostate, FramePair, FlowField, SeenFingerprints>;
+
+struct LandmarkQuery {
+  // Name or pattern.
+  std::string journey;
+  Travel travel = Travel::kReturn;
+  // Indexed by Side of the ROBOT.
+  std::array<QueryView, 2> views;
+  MatchOptions match;
+};
+
+struct NamedMatch {
+  std::string journey;
+  Match match;
+};
+
+struct LandmarkQueryResult {
+  // Absent when only fingerprints were given.
+  std::optional<Motion> motion;
+  std::vector<NamedMatch> matches;
+  // By side of the ROUTE.
+  SeenSides seen;
+};
+
+// INVALID_ARGUMENT, NOT_FOUND, FAILED_PRECONDITION (other camera).
+absl::StatusOr<LandmarkQueryResult> MatchLandmarks(JourneyCatalog* catalog,
+                                                   const LandmarkQuery& query,
+                                                   const DecodeLimits& limits);
+
+}  // namespace homing::server
+
+#endif  // SERVER_SESSION_LANDMARK_QUERY_H_

@@ -1,0 +1,197 @@
+#include "server/session/live_journey.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "absl/strings/str_cat.h"
+#include "homing/status_macros.h"
+#include "server/session/error_reason.h"
+
+namespace homing::server {
+namespace {
+
+absl::Status ClaimOver(const std::string& name) {
+  return WithReason(
+      absl::AbortedError(absl::StrCat("journey is \"", name,
+                                      "\"; another stream took it over, one stream may write it")),
+      {"WRITER_REPLACED", {}});
+}
+
+void CountStep(const JourneyStep& step, storage::JourneyRecord* record) {
+  record->step_count = std::max(record->step_count, step.step + 1);
+  record->fingerprint_count += static_cast<std::int64_t>(step.fingerprints.size());
+  for (const RecordedFingerprint& f : step.fingerprints) {
+    record->landmark_count = std::max(record->landmark_count, f.fingerprint.landmark + 1);
+  }
+}
+
+}  // namespace
+
+LiveJourney::LiveJourney(storage::JourneyRecord record, JourneyMap map)
+    : name_(record.name), map_(std::move(map)), record_(std::move(record)) {
+  record_.step_count = map_.step_count();
+  record_.landmark_count = static_cast<std::int32_t>(map_.landmarks().size());
+  record_.fingerprint_count = static_cast<std::int64_t>(map_.all_fingerprints().size());
+}
+
+storage::JourneyRecord LiveJourney::record() const {
+  const std::lock_guard lock(mutex_);
+  return record_;
+}
+
+bool LiveJourney::deleted() const {
+  const std::lock_guard lock(mutex_);
+  return deleted_;
+}
+
+absl::Status LiveJourney::CheckWritable() const {
+  if (deleted_) {
+    return absl::NotFoundError(absl::StrCat("journey is \"", name_, "\"; it was deleted"));
+  }
+  if (record_.state == storage::JourneyState::kFinished) {
+    return WithReason(absl::FailedPreconditionError(absl::StrCat(
+                          "journey is \"", name_, "\"; it is finished and takes no observations")),
+                      {"JOURNEY_FINISHED", {}});
+  }
+  return absl::OkStatus();
+}
+
+void LiveJourney::AwaitQuiet(std::unique_lock<std::mutex>* lock) {
+  quiet_.wait(*lock, [this] { return appends_under_way_ == 0; });
+}
+
+absl::StatusOr<std::uint64_t> LiveJourney::Claim(const std::string& writer_id, TimePoint now,
+                                                 WriterLease::Evict evict) {
+  WriterLease::Evict previous;
+  std::uint64_t claim = 0;
+  {
+    std::unique_lock lock(mutex_);
+    HOMING_RETURN_IF_ERROR(CheckWritable());
+    HOMING_RETURN_IF_ERROR(lease_.CheckFree(writer_id, now));
+    claim = lease_.Take(writer_id, now, std::move(evict), &previous);
+    AwaitQuiet(&lock);
+    record_.writer_id = writer_id;
+  }
+  if (previous) {
+    previous(ClaimOver(name_));
+  }
+  return claim;
+}
+
+absl::Status LiveJourney::Renew(std::uint64_t claim, TimePoint now) {
+  const std::lock_guard lock(mutex_);
+  if (!lease_.Holds(claim)) {
+    return ClaimOver(name_);
+  }
+  lease_.Renew(now);
+  return absl::OkStatus();
+}
+
+absl::Status LiveJourney::BeginAppend(std::uint64_t claim) {
+  const std::lock_guard lock(mutex_);
+  if (!lease_.Holds(claim)) {
+    return ClaimOver(name_);
+  }
+  ++appends_under_way_;
+  return absl::OkStatus();
+}
+
+void LiveJourney::EndAppend(const storage::JourneyAppend& append, const absl::Status& status) {
+  {
+    const std::lock_guard lock(mutex_);
+    --appends_under_way_;
+    if (status.ok()) {
+      record_.next_sequence = append.sequence + 1;
+      record_.input = append.input;
+      // As on the disk: an observation without a step has no say.
+      if (append.step && append.capture_time_ns != 0) {
+        record_.start_time_ns =
+            record_.start_time_ns == 0 ? append.capture_time_ns : record_.start_time_ns;
+        record_.end_time_ns = append.capture_time_ns;
+      }
+      if (append.settings) {
+        record_.settings = *append.settings;
+        settings_changed_ = true;
+      }
+      if (append.step) {
+        CountStep(*append.step, &record_);
+        unabsorbed_.push_back(*append.step);
+      }
+    }
+  }
+  quiet_.notify_all();
+  if (map_mutex_.try_lock()) {
+    AbsorbSteps();
+    map_mutex_.unlock();
+  }
+}
+
+void LiveJourney::EvictWriter(const absl::Status& reason) {
+  WriterLease::Evict evict;
+  {
+    std::unique_lock lock(mutex_);
+    evict = lease_.Release();
+    AwaitQuiet(&lock);
+  }
+  if (evict) {
+    evict(reason);
+  }
+}
+
+absl::Status LiveJourney::CheckWriter(const std::string& writer_id, TimePoint now) const {
+  const std::lock_guard lock(mutex_);
+  return lease_.CheckFree(writer_id, now);
+}
+
+void LiveJourney::MarkFinished() {
+  const std::lock_guard lock(mutex_);
+  record_.state = storage::JourneyState::kFinished;
+}
+
+void LiveJourney::MarkDeleted() {
+  const std::lock_guard lock(mutex_);
+  deleted_ = true;
+}
+
+void LiveJourney::AbsorbSteps() {
+  std::vector<JourneyStep> steps;
+  {
+    const std::lock_guard lock(mutex_);
+    steps.swap(unabsorbed_);
+    if (std::exchange(settings_changed_, false)) {
+      map_.mutable_settings() = record_.settings;
+    }
+  }
+  for (const JourneyStep& step : steps) {
+    // The disk took the same step under the same rules: it cannot fail here.
+    map_.Append(step).IgnoreError();
+  }
+}
+
+void LiveJourney::LockMap() {
+  bool behind = false;
+  {
+    const std::lock_guard lock(mutex_);
+    behind = !unabsorbed_.empty() || settings_changed_;
+  }
+  if (behind) {
+    map_mutex_.lock();
+    AbsorbSteps();
+    map_mutex_.unlock();
+  }
+  map_mutex_.lock_shared();
+}
+
+MapsLock::MapsLock(const LiveJourneys& journeys) : journeys_(journeys) {
+  for (const std::shared_ptr<LiveJourney>& journey : journeys_) {
+    journey->LockMap();
+  }
+}
+
+MapsLock::~MapsLock() {
+  for (const std::shared_ptr<LiveJourney>& journey : journeys_) {
+    journey->UnlockMap();
+  }
+}
+
+}  // namespace homing::server

@@ -1,0 +1,193 @@
+#include "server/session/recording_session.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "absl/strings/str_cat.h"
+#include "homing/range_check.h"
+#include "homing/status_macros.h"
+#include "server/session/error_reason.h"
+
+namespace homing::server {
+namespace {
+
+std::string KindName(InputKind kind) {
+  return kind == InputKind::kFrames ? "frames" : "flow vectors";
+}
+
+absl::Status GapError(std::int64_t sequence, std::int64_t due) {
+  return WithReason(absl::OutOfRangeError(
+                        absl::StrCat("observation.sequence is ", sequence, "; ", due, " is due")),
+                    {"SEQUENCE_GAP", {{"due", absl::StrCat(due)}}});
+}
+
+}  // namespace
+
+absl::StatusOr<std::shared_ptr<RecordingSession>> RecordingSession::Open(
+    const RecordingContext& context, const std::string& journey, const std::string& writer_id,
+    TimePoint now, RecordingListener listener) {
+  HOMING_ASSIGN_OR_RETURN(const JourneyName name, ParseJourneyName(journey, "config.journey"));
+  HOMING_RETURN_IF_ERROR(CheckWriterId(writer_id, "config.writer_id"));
+  if (writer_id.empty()) {
+    return absl::InvalidArgumentError("config.writer_id is empty; it must name the writer");
+  }
+  std::shared_ptr<RecordingSession> session(new RecordingSession(context, std::move(listener)));
+  HOMING_ASSIGN_OR_RETURN(WriterClaim claim,
+                          context.catalog->Claim(name.ToString(), writer_id, now,
+                                                 [weak = std::weak_ptr<RecordingSession>(session)](
+                                                     const absl::Status& reason) {
+                                                   if (const auto evicted = weak.lock()) {
+                                                     evicted->End(reason);
+                                                   }
+                                                 }));
+  session->Start(std::move(claim));
+  return session;
+}
+
+void RecordingSession::Start(WriterClaim claim) {
+  claim_ = std::move(claim);
+  const storage::JourneyRecord record = claim_.journey->record();
+  recorder_.emplace(record.settings, context_.limits);
+  {
+    const LiveJourneys one = {claim_.journey};
+    const MapsLock lock(one);
+    recorder_->Resume(claim_.journey->map());
+  }
+  kind_ = record.input;
+  next_ = record.next_sequence;
+  due_ = std::max<std::int64_t>(0, next_ - LookBack(kind_));
+  const std::lock_guard lock(mutex_);
+  durable_next_ = next_;
+  Deliver({true, absl::OkStatus(), {std::nullopt, next_, due_, std::nullopt}});
+}
+
+void RecordingSession::Record(const Observation& observation, TimePoint now) {
+  if (ended()) {
+    return;
+  }
+  const std::int64_t slot = OpenSlot();
+  if (const absl::Status status = Process(observation, now, slot); !status.ok()) {
+    Complete(slot, status, {});
+  }
+}
+
+void RecordingSession::Reject(const absl::Status& status) { Complete(OpenSlot(), status, {}); }
+
+// Observation -> number -> step -> commit -> answer.
+absl::Status RecordingSession::Process(const Observation& observation, TimePoint now,
+                                       std::int64_t slot) {
+  HOMING_RETURN_IF_ERROR(claim_.journey->Renew(claim_.claim, now));
+  HOMING_RETURN_IF_ERROR(CheckDue(observation));
+  const std::int64_t sequence = observation.sequence;
+  if (sequence < due_) {
+    Complete(slot, absl::OkStatus(), {sequence, 0, std::nullopt, std::nullopt});
+    return absl::OkStatus();
+  }
+  HOMING_RETURN_IF_ERROR(CheckKind(observation));
+  const JourneySettings before = recorder_->settings();
+  auto step = recorder_->Record(observation);
+  if (!step.ok()) {
+    return Within(absl::StrCat("observation[", sequence, "]"), step.status());
+  }
+  due_ = sequence + 1;
+  if (sequence < next_) {
+    Complete(slot, absl::OkStatus(), {sequence, 0, std::nullopt, std::nullopt});
+    return absl::OkStatus();
+  }
+  next_ = sequence + 1;
+  storage::JourneyAppend append{claim_.journey->name(),      sequence,         kind_,
+                                observation.capture_time_ns, *std::move(step), std::nullopt};
+  if (recorder_->settings() != before) {
+    append.settings = recorder_->settings();
+  }
+  return Commit(append, slot);
+}
+
+absl::Status RecordingSession::CheckDue(const Observation& observation) const {
+  if (observation.sequence < 0) {
+    return absl::InvalidArgumentError(
+        absl::StrCat("observation.sequence is ", observation.sequence, "; numbers begin at 0"));
+  }
+  const bool goes_on_after_break = observation.break_before && observation.sequence == next_;
+  if (observation.sequence > due_ && !goes_on_after_break) {
+    return GapError(observation.sequence, due_);
+  }
+  return absl::OkStatus();
+}
+
+absl::Status RecordingSession::CheckKind(const Observation& observation) {
+  HOMING_ASSIGN_OR_RETURN(const InputKind kind, InputKindOf(observation));
+  if (kind_ != InputKind::kUnknown && kind != kind_) {
+    return WithReason(absl::FailedPreconditionError(absl::StrCat(
+                          "observation holds ", KindName(kind), "; the journey is recorded with ",
+                          KindName(kind_), " and takes nothing else")),
+                      {"OTHER_INPUT", {}});
+  }
+  kind_ = kind;
+  return absl::OkStatus();
+}
+
+absl::Status RecordingSession::Commit(const storage::JourneyAppend& append, std::int64_t slot) {
+  HOMING_RETURN_IF_ERROR(claim_.journey->BeginAppend(claim_.claim));
+  auto done = [self = shared_from_this(), slot, append](const absl::Status& status) {
+    self->claim_.journey->EndAppend(append, status);
+    self->Complete(slot, status, {append.sequence, 0, std::nullopt, append.step});
+  };
+  absl::Status status = context_.queue->Submit(append, std::move(done));
+  if (!status.ok()) {
+    claim_.journey->EndAppend(append, status);
+  }
+  return status;
+}
+
+std::int64_t RecordingSession::OpenSlot() {
+  const std::lock_guard lock(mutex_);
+  slots_.emplace_back();
+  return first_slot_ + static_cast<std::int64_t>(slots_.size()) - 1;
+}
+
+void RecordingSession::Complete(std::int64_t slot, const absl::Status& status,
+                                RecordingAnswer answer) {
+  const std::lock_guard lock(mutex_);
+  if (ended_) {
+    return;
+  }
+  slots_[static_cast<std::size_t>(slot - first_slot_)] = {true, status, std::move(answer)};
+  while (!slots_.empty() && slots_.front().ready) {
+    Slot ready = std::move(slots_.front());
+    slots_.pop_front();
+    ++first_slot_;
+    Deliver(std::move(ready));
+  }
+}
+
+void RecordingSession::Deliver(Slot slot) {
+  if (ended_) {
+    return;
+  }
+  if (!slot.status.ok()) {
+    ended_ = true;
+    listener_.end(slot.status);
+    return;
+  }
+  if (slot.answer.sequence) {
+    durable_next_ = std::max(durable_next_, *slot.answer.sequence + 1);
+  }
+  slot.answer.next_sequence = durable_next_;
+  listener_.answer(std::move(slot.answer));
+}
+
+bool RecordingSession::ended() {
+  const std::lock_guard lock(mutex_);
+  return ended_;
+}
+
+void RecordingSession::End(const absl::Status& status) {
+  const std::lock_guard lock(mutex_);
+  if (!ended_) {
+    ended_ = true;
+    listener_.end(status);
+  }
+}
+
+}  // namespace homing::server

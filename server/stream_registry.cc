@@ -1,0 +1,41 @@
+#include "server/stream_registry.h"
+
+namespace homing::server {
+
+bool StreamRegistry::Add(const std::shared_ptr<OpenStream>& stream) {
+  const std::lock_guard lock(mutex_);
+  if (!draining_) {
+    streams_.insert(stream);
+  }
+  return !draining_;
+}
+
+void StreamRegistry::Remove(const std::shared_ptr<OpenStream>& stream) {
+  const std::lock_guard lock(mutex_);
+  streams_.erase(stream);
+  removed_.notify_all();
+}
+
+void StreamRegistry::Drain() {
+  std::set<std::shared_ptr<OpenStream>> streams;
+  {
+    const std::lock_guard lock(mutex_);
+    draining_ = true;
+    streams = streams_;
+  }
+  for (const std::shared_ptr<OpenStream>& stream : streams) {
+    stream->Drain();
+  }
+}
+
+void StreamRegistry::AwaitNone() {
+  std::unique_lock lock(mutex_);
+  removed_.wait(lock, [this] { return streams_.empty(); });
+}
+
+bool StreamRegistry::draining() const {
+  const std::lock_guard lock(mutex_);
+  return draining_;
+}
+
+}  // namespace homing::server
