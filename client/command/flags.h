@@ -1,0 +1,53 @@
+// Flags that several commands have. Source: own design.
+#ifndef CLIENT_COMMAND_FLAGS_H_
+#define CLIENT_COMMAND_FLAGS_H_
+
+#include <CLI/CLI.hpp>
+#include <string>
+
+#include "absl/status/statusor.h"
+#include "client/connection.h"
+#include "client/journey_client.h"
+#include "homing/flow/flow_tracker.h"
+#include "homing/v1/homing_service.pb.h"
+#include "homing/v1/types.pb.h"
+
+namespace homing::client {
+
+// "fx,fy,cx,cy[,k1,k2,p1,p2,k3][,yaw=RAD]", pixels and radians. INVALID_ARGUMENT.
+absl::StatusOr<v1::Camera> ParseCamera(const std::string& text);
+
+// --left, --right, --left-camera, --right-camera, --send.
+struct RobotFlags {
+  std::string left;
+  std::string right;
+  std::string left_camera;
+  std::string right_camera;
+  std::string send = "frames";
+
+  bool sends_flow() const { return send == "flow"; }
+  // Those that are given. REQUIRES: checked by the flag.
+  v1::Camera left_intrinsics() const;
+  v1::Camera right_intrinsics() const;
+};
+
+void AddRobotFlags(CLI::App& command, RobotFlags& flags);
+// Throws CLI's error of usage unless --left or --right is given.
+void RequireCamera(const RobotFlags& flags);
+
+// --journey NAME; wildcards only if `wildcards`.
+CLI::Option* AddJourneyFlag(CLI::App& command, std::string& journey, bool wildcards);
+
+// --travel return|same.
+void AddTravelFlag(CLI::App& command, std::string& travel);
+v1::Travel ToTravel(const std::string& travel);
+
+// How the flow of a journey is computed; for a wildcard that of the first journey it covers.
+absl::StatusOr<FlowOptions> FlowOptionsOf(JourneyClient& journeys, const std::string& journey);
+
+// --writer's default: this machine's id, else its name.
+std::string DefaultWriter();
+
+}  // namespace homing::client
+
+#endif  // CLIENT_COMMAND_FLAGS_H_

@@ -1,0 +1,67 @@
+#include "client/command/session.h"
+
+#include <cstdio>
+
+#include "absl/strings/str_cat.h"
+#include "homing/status_macros.h"
+
+namespace homing::client {
+
+absl::StatusOr<Connection> Session::Connect() const {
+  HOMING_ASSIGN_OR_RETURN(Connection opened, Connection::Open(connection));
+  HOMING_RETURN_IF_ERROR(opened.WaitForServer());
+  return opened;
+}
+
+void Session::Log(const std::string& text) const {
+  if (!quiet) std::fputs(absl::StrCat("homing: ", text, "\n").c_str(), stderr);
+}
+
+absl::Status Session::Print(const std::string& line) const {
+  std::fputs((line + "\n").c_str(), stdout);
+  if (std::fflush(stdout) != 0) {
+    return absl::FailedPreconditionError("cannot write to standard output");
+  }
+  return absl::OkStatus();
+}
+
+absl::Status Session::PrintJson(const nlohmann::ordered_json& line) const {
+  // Invalid UTF-8 in a name must not throw.
+  return Print(line.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+}
+
+void AddCommonFlags(CLI::App& app, Session& session) {
+  ConnectionOptions& connection = session.connection;
+  app.add_option("--server", connection.address, "Address of homing-server, HOST:PORT")
+      ->capture_default_str()
+      ->envname("HOMING_SERVER");
+  app.add_flag("--json", session.json, "One JSON object a line on stdout, nothing else there");
+  app.add_flag("--quiet,-q", session.quiet, "Nothing on stderr but errors");
+  app.add_option("--tls-ca", connection.tls_ca, "TLS: PEM file of the certificates to trust");
+  app.add_option("--tls-cert", connection.tls_cert, "TLS: PEM file of this robot's certificate");
+  app.add_option("--tls-key", connection.tls_key, "TLS: PEM file of this robot's key");
+  app.add_option_function<double>(
+         "--retry-seconds",
+         [&connection](const double& seconds) {
+           connection.retry_for =
+               std::chrono::milliseconds(static_cast<std::int64_t>(seconds * 1000));
+         },
+         "How long a broken connection is tried again, seconds [60]")
+      ->check(CLI::Range(0.0, 1e6));
+}
+
+int ExitCode(const Session& session, const absl::Status& status) {
+  if (status.ok()) return 0;
+  const std::string code = absl::StatusCodeToString(status.code());
+  std::fputs(
+      absl::StrCat("homing: error: ", std::string(status.message()), " (", code, ")\n").c_str(),
+      stderr);
+  if (!absl::IsUnavailable(status)) return 1;
+  const std::string& address = session.connection.address;
+  if (std::string(status.message()).find(address) == std::string::npos) {
+    std::fputs(absl::StrCat("homing: server ", address, " is unreachable\n").c_str(), stderr);
+  }
+  return 3;
+}
+
+}  // namespace homing::client

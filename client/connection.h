@@ -1,0 +1,58 @@
+// The channel to one server. Source: own design.
+#ifndef CLIENT_CONNECTION_H_
+#define CLIENT_CONNECTION_H_
+
+#include <grpcpp/channel.h>
+
+#include <chrono>
+#include <functional>
+#include <memory>
+#include <stop_token>
+#include <string>
+
+#include "absl/status/status.h"
+#include "absl/status/statusor.h"
+
+namespace homing::client {
+
+struct ConnectionOptions {
+  // host:port or unix:path.
+  std::string address = "127.0.0.1:50551";
+  // PEM files. Any of them set: TLS. Without `tls_ca` the system's roots are trusted; certificate
+  // and key (mutual TLS) come together.
+  std::string tls_ca;
+  std::string tls_cert;
+  std::string tls_key;
+  // How long the first connection may take.
+  std::chrono::milliseconds connect_timeout{5000};
+  // How long a broken connection is tried again since it last worked.
+  std::chrono::milliseconds retry_for{60000};
+};
+
+// Thread-safe.
+class Connection {
+ public:
+  // Does not wait for the server. INVALID_ARGUMENT: key without certificate; NOT_FOUND: PEM file.
+  static absl::StatusOr<Connection> Open(const ConnectionOptions& options);
+
+  const std::shared_ptr<grpc::Channel>& channel() const { return channel_; }
+  const ConnectionOptions& options() const { return options_; }
+
+  // UNAVAILABLE naming the address: nothing answers there. Returns at the first refusal, and at
+  // `connect_timeout` at the latest.
+  absl::Status WaitForServer() const;
+
+  // Repeats a unary `call` while it IsRetriable, for `retry_for` since the first attempt.
+  // CANCELLED: stopped.
+  absl::Status Retry(const std::stop_token& stop, const std::function<absl::Status()>& call) const;
+
+ private:
+  Connection(ConnectionOptions options, std::shared_ptr<grpc::Channel> channel);
+
+  ConnectionOptions options_;
+  std::shared_ptr<grpc::Channel> channel_;
+};
+
+}  // namespace homing::client
+
+#endif  // CLIENT_CONNECTION_H_

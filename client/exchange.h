@@ -1,0 +1,107 @@
+// One attempt of a two-way stream: observations out within a window, answers in. Source: own
+// design.
+#ifndef CLIENT_EXCHANGE_H_
+#define CLIENT_EXCHANGE_H_
+
+#include <grpcpp/client_context.h>
+#include <grpcpp/support/sync_stream.h>
+
+#include <condition_variable>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <thread>
+
+#include "absl/status/status.h"
+#include "client/resend_buffer.h"
+#include "client/rpc_status.h"
+
+namespace homing::client {
+
+// `fill` makes a request of an observation, on the calling thread; `on_answer` is called on another
+// thread, in order. An error of either ends the stream and is returned.
+template <typename Request, typename Response>
+class Exchange {
+ public:
+  using Stream = grpc::ClientReaderWriterInterface<Request, Response>;
+  using Fill = std::function<void(const v1::Observation&, Request*)>;
+  using OnAnswer = std::function<absl::Status(const Response&)>;
+
+  Exchange(grpc::ClientContext* context, Stream* stream, int window)
+      : context_(context), stream_(stream), window_(window) {}
+
+  // To the end of `buffer`, one answer an observation. UNAVAILABLE: the stream ended early.
+  absl::Status Run(ResendBuffer* buffer, const Fill& fill, const OnAnswer& on_answer) {
+    std::thread reader([&] { ReadAnswers(on_answer); });
+    WriteAll(buffer, fill);
+    reader.join();
+    absl::Status status = FromGrpc(stream_->Finish());
+    if (!error_.ok()) return error_;
+    if (!status.ok()) return status;
+    if (!ended_ || open_ > 0) return absl::UnavailableError("the server ended the stream early");
+    return absl::OkStatus();
+  }
+
+ private:
+  void ReadAnswers(const OnAnswer& on_answer) {
+    Response response;
+    while (stream_->Read(&response)) {
+      if (const absl::Status status = on_answer(response); !status.ok()) Fail(status);
+      const std::lock_guard lock(mutex_);
+      --open_;
+      changed_.notify_all();
+    }
+    const std::lock_guard lock(mutex_);
+    closed_ = true;
+    changed_.notify_all();
+  }
+
+  void WriteAll(ResendBuffer* buffer, const Fill& fill) {
+    while (WaitForRoom()) {
+      auto next = buffer->Next();
+      if (!next.ok()) return Fail(next.status());
+      if (*next == nullptr) {
+        ended_ = true;
+        stream_->WritesDone();
+        return;
+      }
+      Request request;
+      fill(**next, &request);
+      {
+        const std::lock_guard lock(mutex_);
+        ++open_;
+      }
+      if (!stream_->Write(request)) return;
+    }
+  }
+
+  // False: the stream is closed.
+  bool WaitForRoom() {
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, [&] { return closed_ || open_ < window_; });
+    return !closed_;
+  }
+
+  void Fail(const absl::Status& status) {
+    {
+      const std::lock_guard lock(mutex_);
+      if (error_.ok()) error_ = status;
+    }
+    context_->TryCancel();
+  }
+
+  grpc::ClientContext* context_;
+  Stream* stream_;
+  const int window_;
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  // Observations sent and not answered.
+  int open_ = 0;
+  bool closed_ = false;
+  bool ended_ = false;
+  absl::Status error_;
+};
+
+}  // namespace homing::client
+
+#endif  // CLIENT_EXCHANGE_H_

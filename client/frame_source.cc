@@ -1,0 +1,47 @@
+#include "client/frame_source.h"
+
+#include <filesystem>
+
+#include "absl/strings/match.h"
+#include "absl/strings/str_cat.h"
+#include "client/image_folder.h"
+#include "client/simulated_source.h"
+#include "client/video_source.h"
+#include "homing/status_macros.h"
+
+namespace homing::client {
+namespace {
+
+bool IsFolderOrGlob(const std::string& source) {
+  std::error_code error;
+  if (std::filesystem::is_directory(source, error)) return true;
+  if (std::filesystem::exists(source, error)) return false;
+  return source.find_first_of("*?[") != std::string::npos;
+}
+
+}  // namespace
+
+absl::Status CheckSourceText(const std::string& source) {
+  if (source.empty()) return absl::InvalidArgumentError("SOURCE is empty");
+  if (absl::StartsWith(source, "mcap:")) {
+    return absl::InvalidArgumentError(absl::StrCat(source, ": MCAP is not supported"));
+  }
+  if (absl::StartsWith(source, "sim:")) return ParseSimulationSpec(source).status();
+  return absl::OkStatus();
+}
+
+absl::StatusOr<std::unique_ptr<FrameSource>> OpenFrameSource(const std::string& source,
+                                                             Side camera) {
+  HOMING_RETURN_IF_ERROR(CheckSourceText(source));
+  if (absl::StartsWith(source, "sim:")) {
+    HOMING_ASSIGN_OR_RETURN(const SimulationSpec spec, ParseSimulationSpec(source));
+    return MakeSimulatedSource(spec, camera);
+  }
+  if (IsFolderOrGlob(source)) {
+    HOMING_ASSIGN_OR_RETURN(auto paths, ListImages(source));
+    return MakeImageFolder(std::move(paths));
+  }
+  return OpenVideo(source);
+}
+
+}  // namespace homing::client

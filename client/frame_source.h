@@ -1,0 +1,52 @@
+// Where a robot's frames come from: image folders, video files, cameras, the simulator.
+#ifndef CLIENT_FRAME_SOURCE_H_
+#define CLIENT_FRAME_SOURCE_H_
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "absl/status/statusor.h"
+#include "homing/flow/observation.h"
+#include "homing/image/frame.h"
+
+namespace homing::client {
+
+// One image; owns its bytes. JPEG and PNG files are passed on as they are.
+struct SourceFrame {
+  FrameEncoding encoding = FrameEncoding::kGray8;
+  int width = 0;
+  int height = 0;
+  std::string data;
+  // Nanoseconds; 0: unknown.
+  std::int64_t capture_time_ns = 0;
+
+  Frame view() const { return {encoding, width, height, data}; }
+};
+
+// Frames of one camera in order. Not thread-safe.
+class FrameSource {
+ public:
+  virtual ~FrameSource() = default;
+  // Nothing at the end.
+  virtual absl::StatusOr<std::optional<SourceFrame>> Next() = 0;
+  // Number of frames, -1 if not known (live camera).
+  virtual std::int64_t size() const { return -1; }
+  // Goes to frame `index` (at most size(); beyond the end of a video: its end); false: cannot (live
+  // camera).
+  virtual bool Seek(std::int64_t index) = 0;
+};
+
+// Whether the text can name a source, without opening it. INVALID_ARGUMENT.
+absl::Status CheckSourceText(const std::string& source);
+
+// SOURCE of the command line, for one camera (a simulated scene has two):
+// folder or glob, video file, /dev/videoN, "sim:SCENE[,key=value...]".
+// INVALID_ARGUMENT (malformed, unknown scene or key), NOT_FOUND (no images).
+absl::StatusOr<std::unique_ptr<FrameSource>> OpenFrameSource(const std::string& source,
+                                                             Side camera);
+
+}  // namespace homing::client
+
+#endif  // CLIENT_FRAME_SOURCE_H_

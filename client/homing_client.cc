@@ -1,0 +1,60 @@
+#include "client/homing_client.h"
+
+#include "client/exchange.h"
+#include "client/rpc_status.h"
+#include "client/unary_call.h"
+#include "homing/status_macros.h"
+
+namespace homing::client {
+
+HomingClient::HomingClient(const Connection* connection, Log log)
+    : connection_(connection),
+      log_(std::move(log)),
+      stub_(v1::HomingService::NewStub(connection->channel())) {}
+
+absl::Status HomingClient::Localize(const LocalizingOptions& options,
+                                    ObservationStream* observations, const OnAnswer& on_answer,
+                                    const std::stop_token& stop) {
+  reported_ = -1;
+  ResendBuffer buffer(observations, options.replay);
+  return Reconnecting(*connection_, stop, log_, [&](bool* progress) {
+    return Attempt(options, &buffer, on_answer, stop, progress);
+  });
+}
+
+absl::Status HomingClient::Attempt(const LocalizingOptions& options, ResendBuffer* buffer,
+                                   const OnAnswer& on_answer, const std::stop_token& stop,
+                                   bool* progress) {
+  grpc::ClientContext context;
+  const std::stop_callback cancel(stop, [&context] { context.TryCancel(); });
+  const auto stream = stub_->Localize(&context);
+  v1::LocalizeRequest config;
+  *config.mutable_config() = options.config;
+  stream->Write(config);
+  const std::int64_t shift = buffer->RewindAll();
+  Exchange<v1::LocalizeRequest, v1::LocalizeResponse> exchange(&context, stream.get(),
+                                                               options.window);
+  const auto fill = [shift](const v1::Observation& observation, v1::LocalizeRequest* request) {
+    *request->mutable_observation() = observation;
+    request->mutable_observation()->set_sequence(observation.sequence() - shift);
+  };
+  return exchange.Run(buffer, fill, [&](const v1::LocalizeResponse& response) -> absl::Status {
+    v1::LocalizeResponse answer = response;
+    answer.set_sequence(response.sequence() + shift);
+    buffer->Acknowledge(answer.sequence() + 1);
+    if (answer.sequence() <= reported_) return absl::OkStatus();
+    reported_ = answer.sequence();
+    *progress = true;
+    return on_answer(answer);
+  });
+}
+
+absl::StatusOr<v1::MatchLandmarksResponse> HomingClient::Match(
+    const v1::MatchLandmarksRequest& request, const std::stop_token& stop) {
+  return CallUnary<v1::MatchLandmarksResponse>(
+      *connection_, stop, [&](auto* context, auto* response) {
+        return stub_->MatchLandmarks(context, request, response);
+      });
+}
+
+}  // namespace homing::client

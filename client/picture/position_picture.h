@@ -1,0 +1,37 @@
+// The way home: where the robot was believed to be and where it was, and how sure the answer was.
+// Source: own design.
+#ifndef CLIENT_PICTURE_POSITION_PICTURE_H_
+#define CLIENT_PICTURE_POSITION_PICTURE_H_
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "absl/status/status.h"
+
+namespace homing::client {
+
+struct BelievedPlace {
+  std::int64_t sequence = 0;
+  // Along the route from home; metres, or steps where no truth is known. Absent: lost.
+  std::optional<double> believed;
+  std::optional<double> truth;
+  // Of the interval, 0..1.
+  double probability = 0;
+  bool is_match = false;
+};
+
+struct PositionPicture {
+  std::string title;
+  // "metres" or "steps".
+  std::string unit = "metres";
+  std::vector<BelievedPlace> places;
+};
+
+// As Canvas.
+absl::Status DrawPositions(const std::string& path, const PositionPicture& picture);
+
+}  // namespace homing::client
+
+#endif  // CLIENT_PICTURE_POSITION_PICTURE_H_

@@ -1,0 +1,17 @@
+// Grey images as PNG files. Source: own design.
+#ifndef CLIENT_PNG_FILE_H_
+#define CLIENT_PNG_FILE_H_
+
+#include <string>
+
+#include "absl/status/status.h"
+#include "client/frame_source.h"
+
+namespace homing::client {
+
+// REQUIRES: a GRAY8 frame of its width and height. PERMISSION_DENIED: cannot write there; INTERNAL.
+absl::Status WritePng(const std::string& path, const SourceFrame& gray);
+
+}  // namespace homing::client
+
+#endif  // CLIENT_PNG_FILE_H_

@@ -1,0 +1,83 @@
+#include "client/recording_client.h"
+
+#include <algorithm>
+
+#include "absl/strings/str_cat.h"
+#include "client/exchange.h"
+#include "client/rpc_status.h"
+#include "homing/status_macros.h"
+
+namespace homing::client {
+
+RecordingClient::RecordingClient(const Connection* connection, RecordingOptions options, Log log)
+    : connection_(connection),
+      options_(std::move(options)),
+      log_(std::move(log)),
+      stub_(v1::JourneyService::NewStub(connection->channel())) {}
+
+absl::StatusOr<RecordingSummary> RecordingClient::Record(ObservationStream* observations,
+                                                         const OnAnswer& on_answer,
+                                                         const std::stop_token& stop) {
+  ResendBuffer buffer(observations, options_.keep);
+  HOMING_RETURN_IF_ERROR(Reconnecting(*connection_, stop, log_, [&](bool* progress) {
+    return Attempt(&buffer, on_answer, stop, progress);
+  }));
+  summary_.reconnects = attempts_ - 1;
+  return summary_;
+}
+
+absl::Status RecordingClient::Attempt(ResendBuffer* buffer, const OnAnswer& on_answer,
+                                      const std::stop_token& stop, bool* progress) {
+  grpc::ClientContext context;
+  const std::stop_callback cancel(stop, [&context] { context.TryCancel(); });
+  const auto stream = stub_->RecordJourney(&context);
+  if (absl::Status status = Begin(stream.get(), buffer); !status.ok()) {
+    context.TryCancel();
+    return status;
+  }
+  Exchange<v1::RecordJourneyRequest, v1::RecordJourneyResponse> exchange(&context, stream.get(),
+                                                                         options_.window);
+  const auto fill = [](const v1::Observation& observation, v1::RecordJourneyRequest* request) {
+    *request->mutable_observation() = observation;
+  };
+  return exchange.Run(buffer, fill, [&](const v1::RecordJourneyResponse& response) {
+    return Answer(response, buffer, on_answer, progress);
+  });
+}
+
+absl::Status RecordingClient::Begin(Stream* stream, ResendBuffer* buffer) {
+  v1::RecordJourneyRequest request;
+  request.mutable_config()->set_journey(options_.journey);
+  request.mutable_config()->set_writer_id(options_.writer_id);
+  stream->Write(request);
+  v1::RecordJourneyResponse first;
+  if (!stream->Read(&first)) {
+    absl::Status status = FromGrpc(stream->Finish());
+    return status.ok() ? absl::UnavailableError("the server ended the stream early") : status;
+  }
+  const std::int64_t durable = first.next_sequence();
+  if (attempts_++ == 0) {
+    summary_.begun_at = durable;
+    if (durable > 0) log_(absl::StrCat("resuming at observation ", durable));
+  } else {
+    log_(absl::StrCat("link restored, going on at observation ", durable));
+  }
+  summary_.next_sequence = durable;
+  const std::int64_t resend_from =
+      first.has_resend_from() ? std::min(first.resend_from(), durable) : durable;
+  buffer->Acknowledge(durable);
+  return buffer->Rewind(resend_from, durable);
+}
+
+absl::Status RecordingClient::Answer(const v1::RecordJourneyResponse& response,
+                                     ResendBuffer* buffer, const OnAnswer& on_answer,
+                                     bool* progress) {
+  buffer->Acknowledge(response.next_sequence());
+  if (response.next_sequence() > summary_.next_sequence) *progress = true;
+  summary_.next_sequence = std::max(summary_.next_sequence, response.next_sequence());
+  if (!response.has_sequence() || response.sequence() <= reported_) return absl::OkStatus();
+  reported_ = response.sequence();
+  return on_answer(response);
+}
+
+}  // namespace homing::client

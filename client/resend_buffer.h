@@ -1,0 +1,51 @@
+// Observations sent and not yet acknowledged, and a few before them, to send again after a broken
+// link. Source: own design.
+#ifndef CLIENT_RESEND_BUFFER_H_
+#define CLIENT_RESEND_BUFFER_H_
+
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <mutex>
+
+#include "absl/status/statusor.h"
+#include "client/observation_stream.h"
+
+namespace homing::client {
+
+// One thread sends (Next, Rewind), another acknowledges: thread-safe.
+class ResendBuffer {
+ public:
+  // Keeps `keep` observations that are acknowledged already. `stream` must outlive the buffer.
+  ResendBuffer(ObservationStream* stream, int keep);
+
+  // The next observation to send, from the buffer or the stream; null at the end.
+  absl::StatusOr<std::shared_ptr<const v1::Observation>> Next();
+
+  // Everything before `sequence` need not be sent again.
+  void Acknowledge(std::int64_t sequence);
+
+  // The server has all before `durable`: sends again from `resend_from` <= `durable`, out of the
+  // buffer or by Seek. A stream that cannot go back goes on at `durable` at the latest, with a
+  // break. DATA_LOSS: what is due is neither kept nor can it be had again.
+  absl::Status Rewind(std::int64_t resend_from, std::int64_t durable);
+
+  // Sends again all that is kept. The sequence it begins with.
+  std::int64_t RewindAll();
+
+ private:
+  std::int64_t begin() const;
+  std::int64_t end() const;
+
+  std::mutex mutex_;
+  ObservationStream* stream_;
+  int keep_;
+  std::deque<std::shared_ptr<const v1::Observation>> kept_;
+  // Sequence that Next gives next; all kept before it were sent.
+  std::int64_t cursor_ = 0;
+  std::int64_t acknowledged_ = 0;
+};
+
+}  // namespace homing::client
+
+#endif  // CLIENT_RESEND_BUFFER_H_

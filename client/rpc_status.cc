@@ -1,0 +1,54 @@
+#include "client/rpc_status.h"
+
+#include <google/protobuf/util/time_util.h>
+
+#include <string>
+
+#include "absl/strings/cord.h"
+#include "absl/strings/numbers.h"
+#include "absl/strings/str_cat.h"
+#include "google/rpc/error_details.pb.h"
+
+namespace homing::client {
+namespace {
+
+constexpr char kRetryDelayUrl[] = "homing.client/retry-delay-ms";
+
+// `details` is a google.rpc.Status (trailer grpc-status-details-bin).
+std::optional<std::chrono::milliseconds> FindRetryInfo(const std::string& details) {
+  google::rpc::Status status;
+  if (!status.ParseFromString(details)) return std::nullopt;
+  for (const google::protobuf::Any& any : status.details()) {
+    google::rpc::RetryInfo info;
+    if (any.UnpackTo(&info)) {
+      return std::chrono::milliseconds(
+          google::protobuf::util::TimeUtil::DurationToMilliseconds(info.retry_delay()));
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+absl::Status FromGrpc(const grpc::Status& status) {
+  if (status.ok()) return absl::OkStatus();
+  absl::Status result(static_cast<absl::StatusCode>(status.error_code()), status.error_message());
+  if (const auto delay = FindRetryInfo(status.error_details())) {
+    result.SetPayload(kRetryDelayUrl, absl::Cord(absl::StrCat(delay->count())));
+  }
+  return result;
+}
+
+std::optional<std::chrono::milliseconds> RetryDelay(const absl::Status& status) {
+  const auto payload = status.GetPayload(kRetryDelayUrl);
+  std::int64_t milliseconds = 0;
+  if (!payload || !absl::SimpleAtoi(std::string(*payload), &milliseconds)) return std::nullopt;
+  return std::chrono::milliseconds(milliseconds);
+}
+
+bool IsRetriable(const absl::Status& status) {
+  return absl::IsUnavailable(status) ||
+         (absl::IsResourceExhausted(status) && RetryDelay(status).has_value());
+}
+
+}  // namespace homing::client

@@ -1,0 +1,25 @@
+// gRPC's status to absl's, with the server's advice on when to try again. Source: own design.
+#ifndef CLIENT_RPC_STATUS_H_
+#define CLIENT_RPC_STATUS_H_
+
+#include <grpcpp/support/status.h>
+
+#include <chrono>
+#include <optional>
+
+#include "absl/status/status.h"
+
+namespace homing::client {
+
+// Same code and message; keeps the delay of google.rpc.RetryInfo for RetryDelay.
+absl::Status FromGrpc(const grpc::Status& status);
+
+// The delay that the server named, if it did.
+std::optional<std::chrono::milliseconds> RetryDelay(const absl::Status& status);
+
+// Whether the same call may succeed later: UNAVAILABLE, and RESOURCE_EXHAUSTED with a delay.
+bool IsRetriable(const absl::Status& status);
+
+}  // namespace homing::client
+
+#endif  // CLIENT_RPC_STATUS_H_

@@ -1,0 +1,41 @@
+#include "client/simulated_source.h"
+
+#include "homing/status_macros.h"
+
+namespace homing::client {
+namespace {
+
+class SimulatedSource : public FrameSource {
+ public:
+  SimulatedSource(std::unique_ptr<Simulator> simulator, Side camera)
+      : simulator_(std::move(simulator)), camera_(camera) {}
+
+  absl::StatusOr<std::optional<SourceFrame>> Next() override {
+    if (next_ >= size()) return std::optional<SourceFrame>();
+    const cv::Mat image = simulator_->RenderCamera(next_++, camera_);
+    SourceFrame frame{FrameEncoding::kGray8, image.cols, image.rows, {}, 0};
+    frame.data.assign(reinterpret_cast<const char*>(image.data), image.total());
+    return std::make_optional(std::move(frame));
+  }
+  std::int64_t size() const override { return simulator_->frame_count(); }
+  bool Seek(std::int64_t index) override {
+    if (index < 0 || index > size()) return false;
+    next_ = index;
+    return true;
+  }
+
+ private:
+  std::unique_ptr<Simulator> simulator_;
+  Side camera_;
+  std::int64_t next_ = 0;
+};
+
+}  // namespace
+
+absl::StatusOr<std::unique_ptr<FrameSource>> MakeSimulatedSource(const SimulationSpec& spec,
+                                                                 Side camera) {
+  HOMING_ASSIGN_OR_RETURN(auto simulator, Simulator::Create(spec));
+  return std::make_unique<SimulatedSource>(std::move(simulator), camera);
+}
+
+}  // namespace homing::client

@@ -1,0 +1,41 @@
+// The line that the outbound robot follows. Source: own design.
+#ifndef CLIENT_SIMULATOR_ROUTE_H_
+#define CLIENT_SIMULATOR_ROUTE_H_
+
+#include <vector>
+
+#include "client/simulator/geometry.h"
+
+namespace homing::client {
+
+// Straight, or bending gently to either side in turn: heading = bend sin(2 pi s / period + phase).
+struct RouteBend {
+  double bend_rad = 0;
+  double period_m = 100;
+  double phase_rad = 0;
+};
+
+class Route {
+ public:
+  Route(double length_m, const RouteBend& bend);
+
+  // The line's point and direction `route_m` from home; also a little beyond both ends.
+  Pose At(double route_m) const;
+  double length_m() const { return length_m_; }
+
+  // The line is known this far beyond its ends.
+  static constexpr double kMarginM = 100;
+
+ private:
+  double Heading(double route_m) const;
+  Vector2 Advanced(const Vector2& from, double route_m, double step_m) const;
+
+  double length_m_;
+  RouteBend bend_;
+  // One a metre, from -kMarginM.
+  std::vector<Vector2> nodes_;
+};
+
+}  // namespace homing::client
+
+#endif  // CLIENT_SIMULATOR_ROUTE_H_

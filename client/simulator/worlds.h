@@ -1,0 +1,26 @@
+// The two worlds: landmarks as in the paper, and a street. Source: own design; kinds of landmarks
+// from the paper (III, Figs 3 to 7). All draw from the one texture pool; another seed is another
+// route of the same kind.
+#ifndef CLIENT_SIMULATOR_WORLDS_H_
+#define CLIENT_SIMULATOR_WORLDS_H_
+
+#include <cstdint>
+
+#include "client/simulator/route.h"
+#include "client/simulator/scene.h"
+
+namespace homing::client {
+
+// A route's bend, by seed: up to 0.08 rad to either side.
+RouteBend BendOf(std::uint64_t seed);
+
+// Spheres, towers, parallelograms and hills 3 to 15 m to either side, with gaps. `remove` is the
+// share of landmarks left out, [0, 1]; a larger share leaves out the same ones and more.
+Scene MakeLandmarkScene(const Route& route, std::uint64_t seed, double remove);
+
+// Rows of repeating facades with gaps, posts and parked boxes before them.
+Scene MakeStreetScene(const Route& route, std::uint64_t seed, double remove);
+
+}  // namespace homing::client
+
+#endif  // CLIENT_SIMULATOR_WORLDS_H_
