@@ -1,0 +1,217 @@
+#include "tests/accuracy/homing_runs.h"
+
+#include <algorithm>
+#include <chrono>
+#include <utility>
+
+#include "absl/strings/str_cat.h"
+#include "client/homing_client.h"
+#include "client/journey_client.h"
+#include "client/recording_client.h"
+#include "homing/journey/journey_recorder.h"
+#include "homing/landmark/profile_code.h"
+#include "homing/localization/localizer.h"
+#include "proto/wire/enum_conversion.h"
+#include "proto/wire/observation_conversion.h"
+
+namespace homing::accuracy {
+namespace {
+
+Observation ObservationOf(const Instant& instant, std::size_t sequence) {
+  Observation observation;
+  observation.sequence = static_cast<std::int64_t>(sequence);
+  for (std::size_t side = 0; side < 2; ++side) {
+    if (instant.flow.fields[side]) observation.views[side] = *instant.flow.fields[side];
+  }
+  return observation;
+}
+
+// The instants of a drive, as a client sends them.
+class InstantStream final : public client::ObservationStream {
+ public:
+  explicit InstantStream(std::vector<const Instant*> instants) : instants_(std::move(instants)) {}
+
+  absl::StatusOr<std::optional<v1::Observation>> Next() override {
+    if (next_ >= instants_.size()) return std::optional<v1::Observation>();
+    const std::size_t at = next_++;
+    return std::make_optional(wire::ToProto(ObservationOf(*instants_[at], at)));
+  }
+  bool Seek(std::int64_t sequence) override {
+    next_ = static_cast<std::size_t>(sequence);
+    return true;
+  }
+  void ContinueAt(std::int64_t /*sequence*/) override {}
+
+ private:
+  std::vector<const Instant*> instants_;
+  std::size_t next_ = 0;
+};
+
+std::vector<const Instant*> All(const Drive& drive) {
+  std::vector<const Instant*> all;
+  for (const Instant& instant : drive) all.push_back(&instant);
+  return all;
+}
+
+void Check(const absl::Status& status) {
+  if (!status.ok()) Fail(status.ToString());
+}
+
+double PlaceOf(const Run& run, int map, std::int64_t step) {
+  return (*run.maps[static_cast<std::size_t>(map)])[static_cast<std::size_t>(step)].place;
+}
+
+JourneyMap MapOf(const Drive& drive) {
+  JourneyRecorder recorder({});
+  JourneyMap map;
+  for (std::size_t i = 0; i < drive.size(); ++i) {
+    auto step = recorder.Record(ObservationOf(drive[i], i));
+    Check(step.status());
+    Check(map.Append(**step));
+  }
+  map.mutable_settings() = recorder.settings();
+  return map;
+}
+
+std::string NameOf(int number, std::size_t map) {
+  return absl::StrCat("robots/r", number, "/journeys/", "m", map);
+}
+
+LocalizerOptions OptionsOf(const Run& run) {
+  LocalizerOptions options;
+  options.travel = run.travel;
+  options.position.tolerance_steps = run.tolerance_steps;
+  options.match.threshold = 0;
+  return options;
+}
+
+void LocalizeDirectly(int number, Run& run) {
+  std::vector<JourneyMap> maps;
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < run.maps.size(); ++i) {
+    maps.push_back(MapOf(*run.maps[i]));
+    names.push_back(NameOf(number, i));
+  }
+  std::vector<JourneyRef> journeys;
+  for (std::size_t i = 0; i < maps.size(); ++i) journeys.push_back({&names[i], &maps[i]});
+  Localizer localizer(OptionsOf(run));
+  for (std::size_t i = 0; i < run.query.size(); ++i) {
+    const auto result = localizer.Localize(ObservationOf(*run.query[i], i), journeys);
+    Check(result.status());
+    const Position& position = result->position;
+    Answer answer{.score = position.probability, .outcome = position.outcome};
+    if (position.step) {
+      answer.map = position.journey;
+      answer.place = PlaceOf(run, position.journey, *position.step);
+    }
+    run.homing.push_back(answer);
+    Answer single;
+    if (!result->matches.empty()) {
+      const Match& best = result->matches.front();
+      single.map = best.journey;
+      single.place = PlaceOf(run, best.journey, best.step);
+      single.score = best.similarity.p_t;
+    }
+    run.single_frame.push_back(single);
+  }
+}
+
+void RecordDrive(const client::Connection* server, const std::string& name, const Drive& drive) {
+  client::JourneyClient journeys(server);
+  const auto parsed = client::ParseJourneyName(name);
+  v1::CreateJourneyRequest request;
+  request.set_parent(parsed->parent);
+  request.set_journey_id(parsed->journey_id);
+  request.set_writer_id("accuracy");
+  Check(journeys.Create(request).status());
+  client::RecordingClient recording(server, {.journey = name, .writer_id = "accuracy"});
+  InstantStream stream(All(drive));
+  Check(recording.Record(&stream, [](const auto&) { return absl::OkStatus(); }).status());
+  Check(journeys.Finish(name, "accuracy").status());
+}
+
+void LocalizeOverServer(const client::Connection* server, int number, Run& run) {
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < run.maps.size(); ++i) {
+    names.push_back(NameOf(number, i));
+    RecordDrive(server, names.back(), *run.maps[i]);
+  }
+  const auto index = [&names](const std::string& name) {
+    return static_cast<int>(std::ranges::find(names, name) - names.begin());
+  };
+  client::LocalizingOptions options;
+  options.config.set_journey(names.size() == 1 ? names[0]
+                                               : absl::StrCat("robots/r", number, "/journeys/-"));
+  options.config.set_travel(wire::ToProto(run.travel));
+  options.config.set_tolerance_steps(run.tolerance_steps);
+  options.config.set_threshold(0);
+  options.config.set_max_matches(1);
+  InstantStream stream(run.query);
+  client::HomingClient homing(server);
+  Check(homing.Localize(options, &stream, [&](const v1::LocalizeResponse& response) {
+    Answer answer{.score = response.probability(),
+                  .outcome = static_cast<Outcome>(response.outcome())};
+    if (response.has_step()) {
+      answer.map = index(response.journey());
+      answer.place = PlaceOf(run, answer.map, response.step());
+    }
+    run.homing.push_back(answer);
+    Answer single;
+    if (response.matches_size() > 0) {
+      single.map = index(response.matches(0).journey());
+      single.place = PlaceOf(run, single.map, response.matches(0).step());
+      single.score = response.matches(0).p_t();
+    }
+    run.single_frame.push_back(single);
+    return absl::OkStatus();
+  }));
+  client::JourneyClient journeys(server);
+  for (const std::string& name : names) Check(journeys.Delete(name));
+}
+
+}  // namespace
+
+void LocalizeRun(const client::Connection* server, int number, Run& run) {
+  if (server == nullptr) {
+    LocalizeDirectly(number, run);
+  } else {
+    LocalizeOverServer(server, number, run);
+  }
+}
+
+double MicrosecondsAnObservation(const Run& run) {
+  const JourneyMap map = MapOf(*run.maps[0]);
+  const std::string name = "robots/r/journeys/m";
+  const JourneyRef journey{&name, &map};
+  Localizer localizer(OptionsOf(run));
+  std::vector<double> times;
+  for (std::size_t i = 0; i < run.query.size(); ++i) {
+    const Observation observation = ObservationOf(*run.query[i], i);
+    const auto start = std::chrono::steady_clock::now();
+    Check(localizer.Localize(observation, {&journey, 1}).status());
+    times.push_back(
+        std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - start)
+            .count());
+  }
+  std::ranges::nth_element(times, times.begin() + static_cast<std::ptrdiff_t>(times.size() / 2));
+  return times[times.size() / 2];
+}
+
+double BytesACameraStep(const Run& run) {
+  constexpr double kFingerprintBytes = 16;
+  const JourneyMap map = MapOf(*run.maps[0]);
+  double bytes = 0;
+  double camera_steps = 0;
+  for (const Side side : {Side::kLeft, Side::kRight}) {
+    for (const FlowProfile& profile : map.profiles(side)) {
+      bytes += static_cast<double>(EncodeProfile(profile).size());
+      camera_steps += 1;
+    }
+  }
+  for (std::int64_t step = 0; step < map.step_count(); ++step) {
+    bytes += kFingerprintBytes * static_cast<double>(map.fingerprints(step).size());
+  }
+  return bytes / camera_steps;
+}
+
+}  // namespace homing::accuracy

@@ -1,0 +1,42 @@
+// docs/results.md, and a line for each bound. Source: own design.
+#ifndef TESTS_ACCURACY_REPORT_H_
+#define TESTS_ACCURACY_REPORT_H_
+
+#include <string>
+#include <vector>
+
+#include "tests/accuracy/run.h"
+
+namespace homing::accuracy {
+
+struct Bound {
+  std::string name;
+  double value = 0;
+  double bound = 0;
+  // Else at most.
+  bool at_least = true;
+
+  bool Holds() const { return at_least ? value >= bound : value <= bound; }
+};
+
+struct Measurements {
+  std::vector<Run> runs;
+  // Slope that the pictures' filter does best with over the real runs.
+  double picture_slope = 0;
+  // By real set, then one for the simulated ones.
+  std::vector<std::pair<std::string, double>> microseconds;
+  std::vector<std::pair<std::string, double>> bytes;
+  // More bounds, from elsewhere.
+  std::vector<Bound> others;
+};
+
+struct Report {
+  std::string markdown;
+  std::vector<Bound> bounds;
+};
+
+Report MakeReport(const Measurements& measurements);
+
+}  // namespace homing::accuracy
+
+#endif  // TESTS_ACCURACY_REPORT_H_

@@ -1,0 +1,63 @@
+// How good answers are. Source: own design; the figures are the field's usual ones.
+#ifndef TESTS_ACCURACY_SCORES_H_
+#define TESTS_ACCURACY_SCORES_H_
+
+#include <vector>
+
+#include "tests/accuracy/run.h"
+
+namespace homing::accuracy {
+
+struct Judgement {
+  bool right = false;
+  double score = 0;
+};
+
+// Of the judged instants of all runs, by one method.
+std::vector<Judgement> Judge(const std::vector<const Run*>& runs, const Answers Run::*method);
+
+// Share of right answers, 0..1.
+double Recall(const std::vector<Judgement>& judgements);
+
+struct PrecisionRecall {
+  struct Point {
+    double recall = 0;
+    double precision = 0;
+  };
+  // From the surest answer on.
+  std::vector<Point> curve;
+  // Average precision, 0..1.
+  double area = 0;
+  // Greatest recall without a wrong answer, 0..1.
+  double recall_at_full_precision = 0;
+};
+
+PrecisionRecall PrecisionRecallOf(std::vector<Judgement> judgements);
+
+struct Calibration {
+  struct Bin {
+    double probability = 0;
+    double right = 0;
+  };
+  // Ten of equal mass, the least sure first.
+  std::vector<Bin> bins;
+  double expected_error = 0;
+  double brier = 0;
+};
+
+// REQUIRES: scores are probabilities.
+Calibration CalibrationOf(std::vector<Judgement> judgements);
+
+// Of the judged instants with a place, units of place; NaN if none.
+double MedianError(const std::vector<const Run*>& runs, const Answers Run::*method);
+
+// Instants until the first right MATCH, median over the runs; a run without one counts as its
+// length.
+double MedianTimeToMatch(const std::vector<const Run*>& runs);
+
+// Share of all instants answered `outcome`.
+double Share(const std::vector<const Run*>& runs, Outcome outcome);
+
+}  // namespace homing::accuracy
+
+#endif  // TESTS_ACCURACY_SCORES_H_

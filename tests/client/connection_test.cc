@@ -1,0 +1,94 @@
+#include "client/connection.h"
+
+#include <gtest/gtest.h>
+
+#include "client/rpc_status.h"
+#include "google/rpc/error_details.pb.h"
+#include "tests/client/fake_journey_service.h"
+#include "tests/support/status_matchers.h"
+
+namespace homing::client {
+namespace {
+
+using ::testing::HasSubstr;
+
+grpc::Status WithRetryInfo(grpc::StatusCode code, int seconds) {
+  google::rpc::RetryInfo info;
+  info.mutable_retry_delay()->set_seconds(seconds);
+  google::rpc::Status details;
+  details.add_details()->PackFrom(info);
+  return {code, "later", details.SerializeAsString()};
+}
+
+TEST(ConnectionTest, NamesTheAddressWhereNothingAnswers) {
+  ConnectionOptions options;
+  options.address = "127.0.0.1:1";
+  const auto connection = Connection::Open(options);
+  ASSERT_THAT(connection, IsOk());
+  EXPECT_THAT(connection->WaitForServer(),
+              StatusIs(absl::StatusCode::kUnavailable, HasSubstr("127.0.0.1:1")));
+}
+
+TEST(ConnectionTest, IsReadyOnceTheServerAnswers) {
+  FakeJourneyService service({});
+  FakeServer server(&service);
+  ConnectionOptions options;
+  options.address = server.address();
+  const auto connection = Connection::Open(options);
+  ASSERT_THAT(connection, IsOk());
+  EXPECT_THAT(connection->WaitForServer(), IsOk());
+}
+
+TEST(ConnectionTest, WantsCertificateAndKeyTogether) {
+  ConnectionOptions options;
+  options.tls_cert = "robot.pem";
+  EXPECT_THAT(Connection::Open(options),
+              StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("--tls-key")));
+}
+
+TEST(ConnectionTest, NamesThePemFileThatIsMissing) {
+  ConnectionOptions options;
+  options.tls_ca = "/does/not/exist.pem";
+  EXPECT_THAT(Connection::Open(options),
+              StatusIs(absl::StatusCode::kNotFound, HasSubstr("/does/not/exist.pem")));
+}
+
+TEST(ConnectionTest, RetriesUntilTheCallSucceeds) {
+  const auto connection = Connection::Open({});
+  ASSERT_THAT(connection, IsOk());
+  int calls = 0;
+  EXPECT_THAT(
+      connection->Retry(
+          {}, [&] { return ++calls < 3 ? absl::UnavailableError("draining") : absl::OkStatus(); }),
+      IsOk());
+  EXPECT_EQ(calls, 3);
+}
+
+TEST(ConnectionTest, DoesNotRetryOtherErrors) {
+  const auto connection = Connection::Open({});
+  ASSERT_THAT(connection, IsOk());
+  int calls = 0;
+  const auto call = [&] {
+    ++calls;
+    return absl::ResourceExhaustedError("message larger than max");
+  };
+  EXPECT_THAT(connection->Retry({}, call),
+              StatusIs(absl::StatusCode::kResourceExhausted, HasSubstr("larger")));
+  EXPECT_EQ(calls, 1);
+}
+
+TEST(RpcStatusTest, ReadsTheDelayTheServerNames) {
+  const absl::Status status = FromGrpc(WithRetryInfo(grpc::StatusCode::RESOURCE_EXHAUSTED, 3));
+  EXPECT_THAT(status, StatusIs(absl::StatusCode::kResourceExhausted, "later"));
+  EXPECT_EQ(RetryDelay(status), std::chrono::seconds(3));
+  EXPECT_TRUE(IsRetriable(status));
+}
+
+TEST(RpcStatusTest, ExhaustedWithoutADelayIsNotRetried) {
+  const absl::Status status = FromGrpc({grpc::StatusCode::RESOURCE_EXHAUSTED, "too large"});
+  EXPECT_FALSE(RetryDelay(status).has_value());
+  EXPECT_FALSE(IsRetriable(status));
+}
+
+}  // namespace
+}  // namespace homing::client

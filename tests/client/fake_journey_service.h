@@ -1,0 +1,82 @@
+// A server that keeps the durable contract of RecordJourney and breaks the link where it is told
+// to.
+#ifndef TESTS_CLIENT_FAKE_JOURNEY_SERVICE_H_
+#define TESTS_CLIENT_FAKE_JOURNEY_SERVICE_H_
+
+#include <grpcpp/server.h>
+
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "homing/v1/homing_service.grpc.pb.h"
+#include "homing/v1/journey_service.grpc.pb.h"
+
+namespace homing::client {
+
+struct Faults {
+  // A link breaks after it received this many observations; -1: never. One entry a link, in order.
+  std::vector<int> break_after_received;
+  // How many of those received before the break were stored without being answered.
+  int unanswered_at_break = 0;
+  // Answers come twice.
+  bool duplicate_answers = false;
+  // Links before this one tell a wrong resend_from, so that a gap arises.
+  int gap_links = 0;
+  // Earlier observations that the server asks for again.
+  int look_back = 1;
+  grpc::Status refuse = grpc::Status::OK;
+};
+
+class FakeJourneyService : public v1::JourneyService::Service, public v1::HomingService::Service {
+ public:
+  explicit FakeJourneyService(Faults faults) : faults_(std::move(faults)) {}
+
+  grpc::Status RecordJourney(grpc::ServerContext* context,
+                             grpc::ServerReaderWriter<v1::RecordJourneyResponse,
+                                                      v1::RecordJourneyRequest>* stream) override;
+  grpc::Status Localize(
+      grpc::ServerContext* context,
+      grpc::ServerReaderWriter<v1::LocalizeResponse, v1::LocalizeRequest>* stream) override;
+
+  // What is durable, in the order stored.
+  std::vector<v1::Observation> stored() const;
+  // Links begun.
+  int links() const;
+  // Largest number of observations received and not answered on one link.
+  std::vector<std::int64_t> received() const;
+
+ private:
+  using RecordStream =
+      grpc::ServerReaderWriter<v1::RecordJourneyResponse, v1::RecordJourneyRequest>;
+
+  int BeginLink();
+  int BreakAfter(int link) const;
+  // False: a gap.
+  bool Store(const v1::Observation& observation);
+  void Answer(RecordStream* stream, std::int64_t sequence);
+
+  Faults faults_;
+  mutable std::mutex mutex_;
+  int links_ = 0;
+  std::vector<v1::Observation> stored_;
+  std::vector<std::int64_t> received_;
+};
+
+// Listens on 127.0.0.1; `port` 0 picks one.
+class FakeServer {
+ public:
+  explicit FakeServer(FakeJourneyService* service, int port = 0);
+  ~FakeServer();
+  int port() const { return port_; }
+  std::string address() const { return "127.0.0.1:" + std::to_string(port_); }
+
+ private:
+  int port_ = 0;
+  std::unique_ptr<grpc::Server> server_;
+};
+
+}  // namespace homing::client
+
+#endif  // TESTS_CLIENT_FAKE_JOURNEY_SERVICE_H_

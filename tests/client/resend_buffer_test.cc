@@ -1,0 +1,74 @@
+#include "client/resend_buffer.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/client/numbered_stream.h"
+#include "tests/support/status_matchers.h"
+
+namespace homing::client {
+namespace {
+
+using ::testing::HasSubstr;
+
+std::int64_t NextSequence(ResendBuffer& buffer) {
+  const auto next = buffer.Next();
+  return next.ok() && *next != nullptr ? (*next)->sequence() : -1;
+}
+
+void Send(ResendBuffer& buffer, int count) {
+  for (int i = 0; i < count; ++i) ASSERT_GE(NextSequence(buffer), 0);
+}
+
+TEST(ResendBufferTest, SendsAgainFromTheBufferWithoutSeeking) {
+  NumberedStream stream(20);
+  ResendBuffer buffer(&stream, 3);
+  Send(buffer, 10);
+  buffer.Acknowledge(6);
+  ASSERT_THAT(buffer.Rewind(4, 6), IsOk());
+  EXPECT_EQ(NextSequence(buffer), 4);
+  Send(buffer, 5);
+  EXPECT_EQ(NextSequence(buffer), 10);
+  EXPECT_TRUE(stream.seeks().empty());
+}
+
+TEST(ResendBufferTest, SeeksWhenTheBufferDoesNotGoBackFarEnough) {
+  NumberedStream stream(20);
+  ResendBuffer buffer(&stream, 3);
+  Send(buffer, 10);
+  buffer.Acknowledge(10);
+  ASSERT_THAT(buffer.Rewind(2, 3), IsOk());
+  EXPECT_EQ(NextSequence(buffer), 2);
+  EXPECT_EQ(stream.seeks(), std::vector<std::int64_t>{2});
+}
+
+TEST(ResendBufferTest, ALiveStreamIsMarkedWhereTheKeptOnesBegin) {
+  NumberedStream stream(20, /*live=*/true);
+  ResendBuffer buffer(&stream, 2);
+  Send(buffer, 10);
+  buffer.Acknowledge(8);
+  ASSERT_THAT(buffer.Rewind(4, 8), IsOk());
+  const auto next = buffer.Next();
+  ASSERT_THAT(next, IsOk());
+  EXPECT_EQ((*next)->sequence(), 8);
+  EXPECT_TRUE((*next)->break_before());
+}
+
+TEST(ResendBufferTest, ALiveStreamThatLostWhatIsDueSaysSo) {
+  NumberedStream stream(20, /*live=*/true);
+  ResendBuffer buffer(&stream, 2);
+  Send(buffer, 10);
+  buffer.Acknowledge(8);
+  EXPECT_THAT(buffer.Rewind(0, 1),
+              StatusIs(absl::StatusCode::kDataLoss, HasSubstr("needs observation 1")));
+}
+
+TEST(ResendBufferTest, KeepsNoMoreThanItIsTold) {
+  NumberedStream stream(1000);
+  ResendBuffer buffer(&stream, 4);
+  Send(buffer, 1000);
+  buffer.Acknowledge(1000);
+  EXPECT_EQ(buffer.RewindAll(), 996);
+}
+
+}  // namespace
+}  // namespace homing::client

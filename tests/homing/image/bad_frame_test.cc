@@ -1,0 +1,164 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "homing/image/frame.h"
+#include "tests/homing/image/encoded_pictures.h"
+#include "tests/support/status_matchers.h"
+
+namespace homing {
+namespace {
+
+using ::testing::HasSubstr;
+using enum FrameEncoding;
+
+cv::Mat Picture() {
+  cv::Mat image(48, 64, CV_8UC1);
+  cv::RNG(3).fill(image, cv::RNG::UNIFORM, 0, 256);
+  return image;
+}
+
+std::string Jpeg() { return EncodeJpeg(Picture()); }
+std::string Png() { return EncodePng(Picture(), {SPNG_COLOR_TYPE_GRAYSCALE, 8}); }
+
+// A JPEG or PNG whose header claims another size; the PNG's checksum is made right.
+std::string JpegClaiming(int width, int height) {
+  std::string bytes = Jpeg();
+  const std::size_t frame = bytes.find(std::string("\xFF\xC0", 2));
+  const auto put = [&bytes](std::size_t at, int value) {
+    bytes[at] = static_cast<char>(value >> 8);
+    bytes[at + 1] = static_cast<char>(value & 255);
+  };
+  put(frame + 5, height);
+  put(frame + 7, width);
+  return bytes;
+}
+
+std::uint32_t Crc(const std::string& bytes) {
+  std::uint32_t crc = 0xFFFFFFFFU;
+  for (const char c : bytes) {
+    crc ^= static_cast<unsigned char>(c);
+    for (int bit = 0; bit < 8; ++bit) {
+      crc = (crc >> 1) ^ ((crc & 1U) != 0 ? 0xEDB88320U : 0U);
+    }
+  }
+  return ~crc;
+}
+
+std::string PngClaiming(std::uint32_t width, std::uint32_t height) {
+  std::string bytes = Png();
+  const auto put = [&bytes](std::size_t at, std::uint32_t value) {
+    for (std::size_t i = 0; i < 4; ++i) {
+      bytes[at + i] = static_cast<char>((value >> (24 - 8 * i)) & 255U);
+    }
+  };
+  put(16, width);
+  put(20, height);
+  put(29, Crc(bytes.substr(12, 17)));
+  return bytes;
+}
+
+struct BadFrame {
+  std::string name;
+  FrameEncoding encoding;
+  int width;
+  int height;
+  std::string data;
+  std::string message;
+};
+
+std::vector<BadFrame> BadFrames() {
+  const std::string pixels(64 * 48, 'x');
+  constexpr int kHuge = std::numeric_limits<int>::max();
+  return {
+      {"GrayTooShort", kGray8, 64, 48, pixels.substr(1), "frame.data has 3071 bytes"},
+      {"GrayTooLong", kGray8, 64, 48, pixels + "x", "needs 3072"},
+      {"RgbOfGrayLength", kRgb8, 64, 48, pixels, "needs 9216"},
+      {"BgrOfGrayLength", kBgr8, 64, 48, pixels, "needs 9216"},
+      {"GrayEmpty", kGray8, 64, 48, "", "has 0 bytes"},
+      {"WidthZero", kGray8, 0, 48, pixels, "frame.width 0 px is outside [16, 8192]"},
+      {"HeightZero", kGray8, 64, 0, pixels, "frame.height 0 px is outside"},
+      {"WidthNegative", kGray8, -64, 48, pixels, "frame.width -64 px"},
+      {"WidthHuge", kRgb8, kHuge, 48, pixels, "frame.width 2147483647 px"},
+      {"HeightHuge", kRgb8, 64, kHuge, pixels, "frame.height 2147483647 px"},
+      {"TooManyPixels", kGray8, 8000, 8000, pixels, "over the limit of 16777216 pixels"},
+      {"UnknownEncoding", static_cast<FrameEncoding>(17), 64, 48, pixels, "frame.encoding 17"},
+      {"JpegHalf", kJpeg, 0, 0, Jpeg().substr(0, Jpeg().size() / 2), "no complete JPEG"},
+      {"JpegWithoutLastBytes", kJpeg, 0, 0, Jpeg().substr(0, Jpeg().size() - 40), "JPEG"},
+      {"JpegHeaderOnly", kJpeg, 0, 0, Jpeg().substr(0, 20), "no complete JPEG"},
+      {"JpegEmpty", kJpeg, 0, 0, "", "no complete JPEG"},
+      {"JpegIsPng", kJpeg, 0, 0, Png(), "no complete JPEG"},
+      {"JpegOtherWidth", kJpeg, 63, 48, Jpeg(), "frame.width 63 px differs from the image header"},
+      {"JpegOtherHeight", kJpeg, 64, 49, Jpeg(), "frame.height 49 px differs"},
+      {"JpegNegativeWidth", kJpeg, -64, 48, Jpeg(), "frame.width -64 px differs"},
+      {"JpegClaimsHuge", kJpeg, 0, 0, JpegClaiming(60000, 60000), "frame.width 60000 px"},
+      {"JpegClaimsMoreRows", kJpeg, 0, 0, JpegClaiming(64, 480), "no complete JPEG"},
+      {"PngHalf", kPng, 0, 0, Png().substr(0, Png().size() / 2), "no complete PNG"},
+      {"PngWithoutEnd", kPng, 0, 0, Png().substr(0, Png().size() - 12), "no complete PNG"},
+      {"PngHeaderOnly", kPng, 0, 0, Png().substr(0, 33), "no complete PNG"},
+      {"PngEmpty", kPng, 0, 0, "", "no complete PNG"},
+      {"PngIsJpeg", kPng, 0, 0, Jpeg(), "no complete PNG"},
+      {"PngOtherWidth", kPng, 65, 48, Png(), "frame.width 65 px differs from the image header"},
+      {"PngBomb", kPng, 0, 0, PngClaiming(60000, 60000), "frame.width 60000 px is outside"},
+      {"PngAreaBomb", kPng, 0, 0, PngClaiming(8192, 8192), "over the limit of 16777216 pixels"},
+      {"PngTiny", kPng, 0, 0, PngClaiming(1, 1), "frame.width 1 px is outside"},
+      {"PngClaimsMoreRows", kPng, 0, 0, PngClaiming(64, 480), "no complete PNG"},
+  };
+}
+
+class BadFrameTest : public ::testing::TestWithParam<BadFrame> {};
+
+TEST_P(BadFrameTest, IsRefusedWithItsReason) {
+  const BadFrame& bad = GetParam();
+  EXPECT_THAT(DecodeGray({bad.encoding, bad.width, bad.height, bad.data}),
+              StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr(bad.message)));
+}
+
+INSTANTIATE_TEST_SUITE_P(All, BadFrameTest, ::testing::ValuesIn(BadFrames()),
+                         [](const auto& bad) { return bad.param.name; });
+
+TEST(BadFrameTest, RandomBytesAreRefused) {
+  std::mt19937 random(11);
+  for (int trial = 0; trial < 200; ++trial) {
+    std::string bytes(random() % 2000, '\0');
+    std::generate(bytes.begin(), bytes.end(), [&random] { return static_cast<char>(random()); });
+    EXPECT_FALSE(DecodeGray({kJpeg, 0, 0, bytes}).ok());
+    EXPECT_FALSE(DecodeGray({kPng, 0, 0, bytes}).ok());
+  }
+}
+
+// Whatever happens to a file, the answer is an image of the claimed limits or INVALID_ARGUMENT.
+TEST(BadFrameTest, ChangedBytesNeverDoMoreThanFail) {
+  std::mt19937 random(5);
+  for (const FrameEncoding encoding : {kJpeg, kPng}) {
+    const std::string whole = encoding == kJpeg ? Jpeg() : Png();
+    for (int trial = 0; trial < 300; ++trial) {
+      std::string bytes = whole;
+      bytes[random() % bytes.size()] = static_cast<char>(random());
+      const auto decoded = DecodeGray({encoding, 0, 0, bytes});
+      if (decoded.ok()) {
+        EXPECT_LE(decoded->total(), 16U << 20);
+      } else {
+        EXPECT_EQ(decoded.status().code(), absl::StatusCode::kInvalidArgument);
+      }
+    }
+  }
+}
+
+TEST(BadFrameTest, LimitsAreTheCallers) {
+  const std::string bytes = Png();
+  DecodeLimits limits;
+  limits.max_side_px = 63;
+  EXPECT_THAT(DecodeGray({kPng, 0, 0, bytes}, limits),
+              StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("[16, 63]")));
+  limits.max_side_px = 64;
+  EXPECT_THAT(DecodeGray({kPng, 0, 0, bytes}, limits), IsOk());
+}
+
+}  // namespace
+}  // namespace homing

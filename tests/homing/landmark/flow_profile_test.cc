@@ -1,0 +1,70 @@
+#include "homing/landmark/flow_profile.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace homing {
+namespace {
+
+// A vector of `length` along x about the midpoint (x, y).
+FlowVector VectorAt(float x, float y, float length) {
+  return {x - length / 2, y, x + length / 2, y};
+}
+
+FlowField FieldOf(std::vector<FlowVector> vectors) {
+  return {.width = 240, .height = 160, .vectors = std::move(vectors)};
+}
+
+int CellAt(int column, int row) { return row * FlowProfile::kColumns + column; }
+
+TEST(FlowProfileTest, NothingSeenIsAllZero) {
+  EXPECT_EQ(MakeFlowProfile(FieldOf({})), FlowProfile{});
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_EQ(MakeFlowProfile(FieldOf({{nan, 1, 2, 3}, VectorAt(-20, 5, 2)})), FlowProfile{});
+}
+
+TEST(FlowProfileTest, KeepsTheRootOfEachCellsShare) {
+  // A quarter of the vectors in one cell, three quarters in another.
+  const FlowProfile profile = MakeFlowProfile(FieldOf(
+      {VectorAt(30, 50, 2), VectorAt(130, 90, 2), VectorAt(131, 91, 2), VectorAt(132, 92, 2)}));
+  EXPECT_EQ(profile.share(CellAt(1, 2)), 15);
+  EXPECT_EQ(profile.share(CellAt(6, 4)), 15);
+  FlowField field = FieldOf({});
+  for (int i = 0; i < 96; ++i) {
+    field.vectors.push_back(VectorAt(10 + 20.0F * static_cast<float>(i % 12),
+                                     10 + 20.0F * static_cast<float>(i / 12), 2));
+  }
+  const FlowProfile even = MakeFlowProfile(field);
+  for (int cell = 0; cell < FlowProfile::kCells; ++cell) {
+    EXPECT_EQ(even.share(cell), std::lround(30 * std::sqrt(1.0 / 96))) << cell;
+    EXPECT_EQ(even.parallax(cell), FlowProfile::kMedianParallax) << cell;
+  }
+}
+
+TEST(FlowProfileTest, ParallaxIsRelativeToTheMedianSoThatSpeedCancels) {
+  const auto at_speed = [](float speed) {
+    return MakeFlowProfile(FieldOf({VectorAt(30, 50, speed), VectorAt(90, 50, speed),
+                                    VectorAt(130, 90, 2 * speed), VectorAt(170, 90, speed / 2)}));
+  };
+  const FlowProfile profile = at_speed(3);
+  EXPECT_EQ(profile.parallax(CellAt(1, 2)), 8);
+  EXPECT_EQ(profile.parallax(CellAt(6, 4)), 12);
+  EXPECT_EQ(profile.parallax(CellAt(8, 4)), 4);
+  EXPECT_EQ(at_speed(4.5F), profile);
+}
+
+TEST(FlowProfileTest, MagnificationMovesMidpointsFromTheMiddle) {
+  const FlowField field = FieldOf({VectorAt(149.5F, 79.5F, 2), VectorAt(229, 79.5F, 2)});
+  EXPECT_NE(MakeFlowProfile(field).cells[static_cast<std::size_t>(CellAt(7, 4))], 0);
+  const FlowProfile twice = MakeFlowProfile(field, 2);
+  // 30 px from the middle become 60; what was at the edge has left the image.
+  EXPECT_EQ(twice.share(CellAt(9, 4)), 15);
+  int filled = 0;
+  for (const auto cell : twice.cells) filled += cell != 0 ? 1 : 0;
+  EXPECT_EQ(filled, 1);
+}
+
+}  // namespace
+}  // namespace homing

@@ -1,0 +1,184 @@
+#include "homing/localization/localizer.h"
+
+#include "homing/journey/journey_recorder.h"
+#include "tests/support/status_matchers.h"
+#include "tests/support/travelling_robot.h"
+
+namespace homing {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+JourneyMap RecordAll(const TravellingRobot& robot) {
+  JourneyRecorder recorder{JourneySettings{}};
+  JourneyMap map;
+  for (const Observation& observation : robot.observations()) {
+    const auto step = recorder.Record(observation);
+    EXPECT_THAT(step, IsOk());
+    if (*step) {
+      EXPECT_THAT(map.Append(**step), IsOk());
+    }
+  }
+  map.mutable_settings() = recorder.settings();
+  return map;
+}
+
+LocalizerOptions Same() {
+  LocalizerOptions options;
+  options.travel = Travel::kSame;
+  return options;
+}
+
+class LocalizerTest : public ::testing::Test {
+ protected:
+  std::string name_ = "robots/a/journeys/b";
+  TravellingRobot robot_ = TravellingRobot::WithFrames(30, 3);
+  JourneyMap map_ = RecordAll(robot_);
+  JourneyRef journey_{&name_, &map_};
+};
+
+TEST_F(LocalizerTest, SameFramesMatchTheirOwnSteps) {
+  Localizer localizer(Same());
+  int right = 0;
+  for (const Observation& observation : robot_.observations()) {
+    const auto answer = localizer.Localize(observation, {&journey_, 1});
+    ASSERT_THAT(answer, IsOk());
+    EXPECT_EQ(answer->sequence, observation.sequence);
+    EXPECT_EQ(answer->has_flow, observation.sequence > 0);
+    if (answer->has_flow && !map_.fingerprints(observation.sequence - 1).empty()) {
+      ASSERT_FALSE(answer->matches.empty());
+      EXPECT_EQ(answer->matches[0].similarity.p_t, 1);
+      right += answer->matches[0].step == observation.sequence - 1 ? 1 : 0;
+      EXPECT_TRUE(answer->position.step.has_value());
+    }
+  }
+  EXPECT_GE(right, 25);
+}
+
+TEST_F(LocalizerTest, FirstFrameTellsNothing) {
+  Localizer localizer(Same());
+  const auto answer = localizer.Localize(robot_.observations()[0], {&journey_, 1});
+  ASSERT_THAT(answer, IsOk());
+  EXPECT_FALSE(answer->has_flow);
+  EXPECT_TRUE(answer->matches.empty());
+  EXPECT_FALSE(answer->position.step.has_value());
+  EXPECT_FALSE(answer->landmark.has_value());
+}
+
+TEST_F(LocalizerTest, LandmarkIsTheBestMatchOfTheInterval) {
+  Localizer localizer(Same());
+  int told = 0;
+  for (const Observation& observation : robot_.observations()) {
+    const auto answer = localizer.Localize(observation, {&journey_, 1});
+    ASSERT_THAT(answer, IsOk());
+    if (answer->landmark) {
+      ++told;
+      ASSERT_TRUE(answer->similarity);
+      EXPECT_GE(*answer->similarity, kRecognitionThreshold);
+      const Landmark& landmark = map_.landmarks()[static_cast<std::size_t>(*answer->landmark)];
+      EXPECT_LE(landmark.first_step, answer->position.interval_last);
+      EXPECT_GE(landmark.last_step, answer->position.interval_first);
+    }
+  }
+  EXPECT_GE(told, 20);
+}
+
+TEST_F(LocalizerTest, ReturningRobotSeesTheOtherSide) {
+  LocalizerOptions options;
+  options.travel = Travel::kReturn;
+  Localizer localizer(options);
+  int right = 0;
+  for (Observation observation : robot_.observations()) {
+    std::swap(observation.views[0], observation.views[1]);
+    const auto answer = localizer.Localize(observation, {&journey_, 1});
+    ASSERT_THAT(answer, IsOk());
+    right += !answer->matches.empty() && answer->matches[0].similarity.p_t == 1 ? 1 : 0;
+  }
+  EXPECT_GE(right, 25);
+}
+
+TEST_F(LocalizerTest, AfterABreakTheBeliefWaits) {
+  Localizer localizer(Same());
+  Position before;
+  for (Observation observation : robot_.observations()) {
+    observation.break_before = observation.sequence == 20;
+    const auto answer = localizer.Localize(observation, {&journey_, 1});
+    ASSERT_THAT(answer, IsOk());
+    if (observation.break_before) {
+      EXPECT_FALSE(answer->has_flow);
+      EXPECT_EQ(answer->position.step, before.step);
+      EXPECT_EQ(answer->position.probability, before.probability);
+    }
+    before = answer->position;
+  }
+}
+
+TEST_F(LocalizerTest, RefusesACameraUnlikeTheOneThatRecorded) {
+  map_.mutable_settings().cameras[1].width = 640;
+  map_.mutable_settings().cameras[1].height = 480;
+  Localizer localizer(Same());
+  EXPECT_THAT(localizer.Localize(robot_.observations()[0], {&journey_, 1}),
+              StatusIs(absl::StatusCode::kFailedPrecondition,
+                       AllOf(HasSubstr("right"), HasSubstr("640"), HasSubstr("160"))));
+  // Having changed sides, it is the left camera that sees the route's right side.
+  Localizer returning(LocalizerOptions{});
+  EXPECT_THAT(returning.Localize(robot_.observations()[0], {&journey_, 1}),
+              StatusIs(absl::StatusCode::kFailedPrecondition, HasSubstr("left")));
+}
+
+TEST_F(LocalizerTest, ErrorLeavesNoTrace) {
+  Localizer disturbed(Same());
+  Localizer undisturbed(Same());
+  for (const Observation& observation : robot_.observations()) {
+    Observation wrong = observation;
+    std::get<Frame>(wrong.views[1]).width = 64;
+    EXPECT_THAT(disturbed.Localize(wrong, {&journey_, 1}),
+                StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("right")));
+    const auto a = disturbed.Localize(observation, {&journey_, 1});
+    const auto b = undisturbed.Localize(observation, {&journey_, 1});
+    ASSERT_THAT(a, IsOk());
+    ASSERT_THAT(b, IsOk());
+    EXPECT_EQ(a->position.step, b->position.step);
+    EXPECT_EQ(a->position.probability, b->position.probability);
+    EXPECT_EQ(a->matches.size(), b->matches.size());
+  }
+}
+
+TEST(CheckCompatibleTest, ComparesOptionsAndSizesBySideOfTheRoute) {
+  LocalizerOptions query;
+  JourneySettings settings;
+  EXPECT_THAT(CheckCompatible(query, settings), IsOk());
+  settings.cameras[0].width = 320;
+  settings.cameras[0].height = 240;
+  query.cameras[0].width = 640;
+  query.cameras[0].height = 480;
+  // The left camera sees the right side on the way home.
+  EXPECT_THAT(CheckCompatible(query, settings), IsOk());
+  query.travel = Travel::kSame;
+  EXPECT_THAT(CheckCompatible(query, settings),
+              StatusIs(absl::StatusCode::kFailedPrecondition,
+                       AllOf(HasSubstr("left"), HasSubstr("640x480"), HasSubstr("320x240"))));
+  query = {};
+  query.flow.cell_px += 1;
+  EXPECT_THAT(CheckCompatible(query, settings),
+              StatusIs(absl::StatusCode::kFailedPrecondition, HasSubstr("flow")));
+  query = {};
+  query.landmark.min_vectors += 1;
+  EXPECT_THAT(CheckCompatible(query, settings),
+              StatusIs(absl::StatusCode::kFailedPrecondition, HasSubstr("landmark")));
+}
+
+TEST(LocalizerOptionsTest, NamesTheOptionThatIsOutOfRange) {
+  EXPECT_THAT(Validate(LocalizerOptions{}), IsOk());
+  LocalizerOptions options;
+  options.match.max_matches = 0;
+  EXPECT_THAT(Validate(options),
+              StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("match: max_matches is 0")));
+  options = {};
+  options.position.likelihood.temper = 0;
+  EXPECT_THAT(Validate(options), StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("temper")));
+}
+
+}  // namespace
+}  // namespace homing

@@ -1,0 +1,136 @@
+#include "homing/localization/profile_likelihood.h"
+
+#include <gmock/gmock.h>
+
+#include <random>
+
+namespace homing {
+namespace {
+
+constexpr int kSteps = 60;
+
+// A camera's field of `count` vectors at random places, about the middle of the image.
+FlowField RandomField(std::mt19937_64& engine, int count = 120) {
+  std::uniform_real_distribution<float> x(60, 260);
+  std::uniform_real_distribution<float> y(40, 200);
+  std::uniform_real_distribution<float> length(2, 6);
+  FlowField field{.width = 320, .height = 240, .vectors = {}};
+  for (int i = 0; i < count; ++i) {
+    const float at = x(engine);
+    const float height = y(engine);
+    const float half = length(engine) / 2;
+    field.vectors.push_back({at - half, height, at + half, height});
+  }
+  return field;
+}
+
+// As seen from nearer, about the middle of the image.
+FlowField Nearer(FlowField field, float by) {
+  for (FlowVector& v : field.vectors) {
+    v = {159.5F + by * (v.start_x - 159.5F), 119.5F + by * (v.start_y - 119.5F),
+         159.5F + by * (v.end_x - 159.5F), 119.5F + by * (v.end_y - 119.5F)};
+  }
+  return field;
+}
+
+class ProfileLikelihoodTest : public ::testing::Test {
+ protected:
+  ProfileLikelihoodTest() {
+    std::mt19937_64 engine(7);
+    for (int step = 0; step < kSteps; ++step) {
+      fields_.push_back(RandomField(engine));
+      JourneyStep recorded{
+          .step = step, .motion = Motion::kMoving, .fingerprints = {}, .profiles = {}};
+      recorded.profiles[0] = MakeFlowProfile(fields_.back());
+      EXPECT_TRUE(map_.Append(recorded).ok());
+    }
+  }
+
+  const std::vector<float>& See(const FlowField& field, std::size_t side = 0) {
+    SeenProfiles seen;
+    seen[side] = MakeProfileViews(field);
+    likelihood_.Compute({&ref_, 1}, seen, predicted_);
+    return likelihood_.of(0);
+  }
+
+  std::vector<FlowField> fields_;
+  std::string name_ = "robots/a/journeys/b";
+  JourneyMap map_;
+  JourneyRef ref_{&name_, &map_};
+  std::vector<std::vector<double>> predicted_ =
+      std::vector(1, std::vector<double>(kSteps, 1.0 / kSteps));
+  ProfileLikelihood likelihood_;
+};
+
+TEST_F(ProfileLikelihoodTest, TheStepItselfIsTheMostLikely) {
+  for (int step = 0; step < kSteps; ++step) {
+    const auto& likelihood = See(fields_[static_cast<std::size_t>(step)]);
+    EXPECT_EQ(std::ranges::max_element(likelihood) - likelihood.begin(), step);
+    EXPECT_GT(likelihood[static_cast<std::size_t>(step)], likelihood_.OffRoute());
+  }
+}
+
+TEST_F(ProfileLikelihoodTest, AForeignPlaceSpeaksForBeingOffTheRoute) {
+  std::mt19937_64 engine(8);
+  double mean = 0;
+  for (int i = 0; i < 20; ++i) {
+    for (const float value : See(RandomField(engine))) {
+      mean += double{value} / (20 * kSteps);
+    }
+  }
+  EXPECT_LT(mean, likelihood_.OffRoute());
+}
+
+TEST_F(ProfileLikelihoodTest, LearnsThatTheRobotIsNearer) {
+  predicted_[0].assign(kSteps, 0);
+  predicted_[0][20] = 1;
+  const float at_first = See(Nearer(fields_[20], 1.35F))[20];
+  for (int i = 0; i < 10; ++i) {
+    See(Nearer(fields_[20], 1.35F));
+  }
+  EXPECT_GT(See(Nearer(fields_[20], 1.35F))[20], 1.2F * at_first);
+}
+
+TEST_F(ProfileLikelihoodTest, TheOtherSideSaysNothing) {
+  SeenProfiles seen;
+  seen[1] = MakeProfileViews(fields_[3]);
+  EXPECT_FALSE(ProfileLikelihood::CanCompare({&ref_, 1}, seen));
+  EXPECT_FALSE(ProfileLikelihood::CanCompare({&ref_, 1}, {}));
+  seen[0] = seen[1];
+  EXPECT_TRUE(ProfileLikelihood::CanCompare({&ref_, 1}, seen));
+}
+
+TEST(ProfileDistanceTest, IsZeroToItselfAndSymmetric) {
+  std::mt19937_64 engine(9);
+  const FlowProfile a = MakeFlowProfile(RandomField(engine));
+  const FlowProfile b = MakeFlowProfile(RandomField(engine));
+  const CellMask all = CoveredCells(1);
+  std::vector<std::uint16_t> from_a(2);
+  std::vector<std::uint16_t> from_b(2);
+  const std::vector<FlowProfile> stored = {a, b};
+  ProfileDistances(a, stored, all, from_a);
+  ProfileDistances(b, stored, all, from_b);
+  EXPECT_EQ(from_a[0], 0);
+  EXPECT_EQ(from_b[1], 0);
+  EXPECT_EQ(from_a[1], from_b[0]);
+  EXPECT_GT(from_a[1], 0);
+}
+
+TEST(ProfileDistanceTest, CountsSharesAndParallaxOfCoveredCells) {
+  FlowProfile a;
+  FlowProfile b;
+  a.cells[0] = 8 << 4 | 5;  // A corner: not covered by half the image.
+  b.cells[0] = 10 << 4 | 2;
+  a.cells[53] = 15 << 4 | 4;
+  b.cells[53] = 1 << 4 | 9;
+  a.cells[54] = 7 << 4 | 3;  // Nothing there in b: no parallax to compare.
+  const std::vector<FlowProfile> stored = {b};
+  std::vector<std::uint16_t> distance(1);
+  ProfileDistances(a, stored, CoveredCells(1), distance);
+  EXPECT_EQ(distance[0], (4 * 3 + 2) + (4 * 5 + 6) + 4 * 3);
+  ProfileDistances(a, stored, CoveredCells(0.5), distance);
+  EXPECT_EQ(distance[0], (4 * 5 + 6) + 4 * 3);
+}
+
+}  // namespace
+}  // namespace homing

@@ -1,0 +1,111 @@
+// homing-server as a process: how it starts, answers for its health, and stops.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <csignal>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tests/integration/program.h"
+#include "tests/support/temporary_folder.h"
+
+namespace homing {
+namespace {
+
+using ::testing::HasSubstr;
+
+class ServerProcessTest : public ::testing::Test {
+ protected:
+  std::vector<std::string> Command(const std::vector<std::string>& arguments) {
+    std::vector<std::string> command = {HOMING_SERVER_PROGRAM, "--listen", "127.0.0.1:0",
+                                        "--database", folder_.Database()};
+    command.insert(command.end(), arguments.begin(), arguments.end());
+    return command;
+  }
+  // The address that the server says it listens on.
+  static std::string AddressOf(Program* server) {
+    const std::string line = server->ReadLine().value_or("");
+    EXPECT_EQ(line.rfind("listening on 127.0.0.1:", 0), 0u) << line << server->Stderr();
+    return line.substr(line.rfind(' ') + 1);
+  }
+  static int Run(const std::vector<std::string>& command, std::string* errors = nullptr) {
+    Program program(command);
+    const int code = program.Wait();
+    if (errors != nullptr) {
+      *errors = program.Stderr();
+    }
+    return code;
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(ServerProcessTest, ItSaysWhereItListensIsHealthyAndStopsCleanly) {
+  for (const int signal : {SIGTERM, SIGINT}) {
+    Program server(Command({}));
+    const std::string address = AddressOf(&server);
+    EXPECT_EQ(Run({HOMING_SERVER_PROGRAM, "healthcheck", "--server", address}), 0);
+    server.Signal(signal);
+    EXPECT_EQ(server.Wait(), 0) << server.Stderr();
+    EXPECT_EQ(Run({HOMING_SERVER_PROGRAM, "healthcheck", "--server", address}), 1);
+    EXPECT_FALSE(std::filesystem::exists(folder_.File("homing.db-wal")));
+  }
+}
+
+TEST_F(ServerProcessTest, AServerOnATakenAddressSaysSoAndEnds) {
+  Program server(Command({}));
+  const std::string address = AddressOf(&server);
+  std::string errors;
+  EXPECT_EQ(Run({HOMING_SERVER_PROGRAM, "--listen", address, "--database",
+                 "sqlite:" + folder_.File("other.db")},
+                &errors),
+            1);
+  EXPECT_THAT(errors, HasSubstr("in use"));
+}
+
+TEST_F(ServerProcessTest, OffLoopbackWithoutTlsItDoesNotStart) {
+  std::string errors;
+  EXPECT_EQ(Run({HOMING_SERVER_PROGRAM, "--listen", "0.0.0.0:0", "--database", folder_.Database()},
+                &errors),
+            1);
+  EXPECT_THAT(errors, HasSubstr("TLS is required"));
+}
+
+TEST_F(ServerProcessTest, CheckConfigTellsWhatWouldBeUsedAndTouchesNothing) {
+  Program check(Command({"--check-config", "--max-message", "1MiB"}));
+  EXPECT_EQ(check.Wait(), 0);
+  EXPECT_THAT(check.lines(), ::testing::Contains("max-message = 1048576"));
+  EXPECT_FALSE(std::filesystem::exists(folder_.File("homing.db")));
+  EXPECT_EQ(Run(Command({"--check-config", "--workers", "-1"})), 1);
+}
+
+TEST_F(ServerProcessTest, OverTlsItsHealthIsAskedWithItsCa) {
+  const std::string key = folder_.File("key.pem");
+  const std::string cert = folder_.File("cert.pem");
+  const std::string make =
+      "openssl req -x509 -newkey ec -pkeyopt ec_paramgen_curve:prime256v1"
+      " -nodes -days 2 -subj /CN=localhost -addext subjectAltName=IP:127.0.0.1"
+      " -keyout " +
+      key + " -out " + cert + " 2>/dev/null";
+  if (std::system(make.c_str()) != 0) {
+    GTEST_SKIP() << "SKIPPED: openssl is not installed, so there is no certificate to try";
+  }
+  Program server(Command({"--tls-cert", cert, "--tls-key", key}));
+  const std::string address = AddressOf(&server);
+  EXPECT_EQ(Run({HOMING_SERVER_PROGRAM, "healthcheck", "--server", address, "--ca", cert}), 0);
+  EXPECT_EQ(Run({HOMING_SERVER_PROGRAM, "healthcheck", "--server", address}), 1);
+  std::string errors;
+  EXPECT_EQ(Run({HOMING_SERVER_PROGRAM, "--listen", "127.0.0.1:0", "--database",
+                 "sqlite:" + folder_.File("other.db"), "--tls-cert", cert, "--tls-key",
+                 folder_.File("none.pem")},
+                &errors),
+            1);
+  EXPECT_THAT(errors, HasSubstr("tls-key"));
+}
+
+}  // namespace
+}  // namespace homing

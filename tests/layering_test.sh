@@ -1,0 +1,152 @@
+#!/bin/sh
+# Which folder may include which, what may appear where, and how long a file may be. Debian keeps the headers of
+# gRPC, SQLite and OpenCV in /usr/include, so that a wrong include compiles: this test is what forbids it.
+#   layering_test.sh [ROOT]        checks the tree
+#   layering_test.sh --self-test   plants one violation of each rule in a scratch tree and expects it to be found
+set -u
+
+max_lines=300
+
+# Includes of a folder, its subfolders excluded: "FOLDER ALLOWED...", as the beginnings of project includes.
+rules='
+homing/image        homing/image/
+homing/flow         homing/flow/ homing/image/
+homing/landmark     homing/landmark/ homing/flow/ homing/image/
+homing/similarity   homing/similarity/ homing/landmark/ homing/flow/ homing/image/
+homing/journey      homing/journey/ homing/similarity/ homing/landmark/ homing/flow/ homing/image/
+homing/localization homing/localization/ homing/journey/ homing/similarity/ homing/landmark/ homing/flow/ homing/image/
+storage             storage/ homing/
+proto/wire          proto/wire/ homing/ homing/v1/
+server/session      server/session/ storage/ homing/
+server              server/ storage/ homing/ homing/v1/ proto/wire/ google/rpc/ grpc/health/
+client/simulator    client/simulator/ homing/flow/ homing/image/
+client              client/ homing/ homing/v1/ proto/wire/ google/rpc/ grpc/health/
+'
+# Folders where generated code, gRPC and Protobuf may not be seen.
+no_network='homing storage server/session client/simulator'
+
+fail() { echo "layering: $*"; failed=1; }
+
+sources() { find "$@" -name build -prune -o \( -name '*.h' -o -name '*.cc' \) -print 2>/dev/null; }
+
+# Lines "FILE:INCLUDED" of the project's own includes; those of one folder, not of its subfolders.
+includes_of() {
+  find "$1" -maxdepth 1 \( -name '*.h' -o -name '*.cc' \) -exec \
+    sed -n 's|^ *# *include *"\([^"]*\)".*|\1|p;' {} + 2>/dev/null | sort -u
+}
+
+check_directions() {
+  echo "$rules" | while read -r folder allowed; do
+    [ -d "${folder:-/nowhere}" ] || continue
+    includes_of "$folder" | while read -r included; do
+      ok=
+      case $included in
+        homing/v1/*) for begin in $allowed; do [ "$begin" = homing/v1/ ] && ok=1; done ;;
+        homing/*/*) for begin in $allowed; do case $included in "$begin"*) ok=1 ;; esac; done ;;
+        homing/*) ok=1 ;;
+        *) for begin in $allowed; do case $included in "$begin"*) ok=1 ;; esac; done ;;
+      esac
+      # Third-party headers in quotes: absl and the like.
+      case $included in absl/* | fmt/* | spdlog/*) ok=1 ;; esac
+      [ -n "$ok" ] || echo "$folder may not include $included"
+    done
+  done
+}
+
+# forbid WHAT PATTERN FILES...: no line of the files, comments apart, may match.
+forbid() {
+  what=$1 pattern=$2
+  shift 2
+  [ $# -gt 0 ] || return 0
+  for file in "$@"; do
+    sed 's|//.*||' "$file" | grep -nE "$pattern" | sed "s|^|$file:|; s|\$|   [$what]|"
+  done
+}
+
+check_contents() {
+  # shellcheck disable=SC2046,SC2086
+  {
+    forbid 'cv:: in a header outside image, flow and client' '(^|[^_[:alnum:]])cv::|opencv2/' \
+      $(sources homing storage server proto | grep '\.h$' | grep -vE '^homing/(image|flow)/')
+    forbid 'OpenCV in a folder that does not use images' 'opencv2/' $(sources storage proto)
+    forbid 'gRPC or Protobuf where no network may be' 'grpc|google/protobuf|\.pb\.h' $(sources $no_network)
+    forbid 'SQLite outside storage' 'include *[<"](sqlite3|SQLiteCpp)' \
+      $(sources homing server proto client tests | grep -v '^tests/storage/')
+    forbid '.value() outside tests' '\.value\(\)' $(sources homing storage server proto client)
+    forbid 'CHECK outside tests and main' '(^|[^_[:alnum:]])D?CHECK(_[A-Z]+)?\(|(^|[^_[:alnum:]])(abort|assert)\(' \
+      $(sources homing storage server proto client | grep -v '/main\.cc$')
+    forbid 'a clock, chance, a file or a log in homing' \
+      'std::chrono|random_device|(^|[^_[:alnum:]])rand\(|fstream|fopen|std::(cout|cerr)|spdlog' $(sources homing)
+  }
+}
+
+check_names() {
+  sources homing storage server proto client | grep -E '/[a-z_]*(util|common|helper|manager|misc|impl)[a-z_]*\.(h|cc)$' |
+    sed 's/$/   [a name that says nothing]/'
+}
+
+check_lengths() {
+  sources homing storage server proto client tests | while read -r file; do
+    lines=$(wc -l <"$file")
+    [ "$lines" -le "$max_lines" ] || echo "$file has $lines lines: at most $max_lines"
+  done
+}
+
+check_tree() {
+  cd "$1" || exit 2
+  failed=0
+  [ -n "$(sources homing)" ] || fail "no sources in $1"
+  found=$(check_directions; check_contents; check_names; check_lengths)
+  [ -z "$found" ] || { echo "$found" | sed 's/^/layering: /'; failed=1; }
+  return $failed
+}
+
+# plant FILE TEXT: a clean scratch tree with this one file added must fail the check.
+plant() {
+  rm -rf "$scratch/tree" && mkdir -p "$scratch/tree/homing/image" "$scratch/tree/$(dirname "$1")"
+  echo '#include "homing/status_macros.h"' >"$scratch/tree/homing/image/frame.h"
+  (check_tree "$scratch/tree") >/dev/null || { echo "self-test: the clean tree fails"; planted_bad=1; }
+  printf '%b\n' "$2" >"$scratch/tree/$1"
+  if (check_tree "$scratch/tree") >/dev/null; then
+    echo "self-test: not found: $1: $2"
+    planted_bad=1
+  fi
+}
+
+self_test() {
+  scratch=$(mktemp -d) || exit 2
+  trap 'rm -rf "$scratch"' EXIT
+  planted_bad=0
+  plant homing/image/a.cc '#include "homing/flow/camera.h"'
+  plant homing/flow/a.h '#include "homing/journey/journey_map.h"'
+  plant homing/journey/a.cc '#include "homing/localization/matcher.h"'
+  plant homing/journey/a.cc '#include "storage/journey_store.h"'
+  plant homing/journey/a.cc '#include "homing/v1/types.pb.h"'
+  plant homing/journey/a.cc '#include <grpcpp/grpcpp.h>'
+  plant homing/landmark/a.h '#include <opencv2/core.hpp>'
+  plant homing/landmark/a.h 'void Draw(const cv::Mat& image);'
+  plant homing/flow/a.cc 'auto now = std::chrono::steady_clock::now();'
+  plant storage/a.cc '#include "server/journey_archive.h"'
+  plant storage/a.cc '#include <google/protobuf/message.h>'
+  plant storage/a.cc 'int x = *result.value();'
+  plant storage/a.cc 'CHECK(ok);'
+  plant storage/a.cc '#include <opencv2/core.hpp>'
+  plant server/a.cc '#include <sqlite3.h>'
+  plant server/a.cc '#include "client/frame_source.h"'
+  plant server/session/a.cc '#include "homing/v1/types.pb.h"'
+  plant server/session/a.h '#include "server/journey_archive.h"'
+  plant client/a.cc '#include "server/journey_archive.h"'
+  plant client/a.cc '#include "storage/journey_store.h"'
+  plant client/simulator/a.cc '#include "homing/journey/journey_map.h"'
+  plant proto/wire/a.cc '#include "server/journey_archive.h"'
+  plant homing/flow/string_util.cc 'int x;'
+  plant tests/a.cc "$(yes 'int x;\n' | head -400 | tr -d '\n')"
+  [ $planted_bad = 0 ] && echo "self-test: every planted violation is found"
+  return $planted_bad
+}
+
+if [ "${1:-}" = --self-test ]; then
+  self_test
+else
+  check_tree "${1:-$(dirname "$0")/..}" && echo "layering: in order"
+fi

@@ -1,0 +1,98 @@
+#include "proto/wire/settings_conversion.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/support/status_matchers.h"
+
+namespace homing::wire {
+namespace {
+
+using ::testing::HasSubstr;
+
+// Unlike the defaults in every field.
+JourneySettings OddSettings() {
+  JourneySettings settings;
+  settings.cameras[0] = {.width = 320,
+                         .height = 240,
+                         .intrinsics = Intrinsics{277.1, 276.9, 160.25, 119.75},
+                         .distortion = {0.1, -0.02, 0.001, 1e-17, 1.0 / 3},
+                         .yaw_rad = -0.05};
+  settings.cameras[1].width = 640;
+  settings.cameras[1].height = 480;
+  settings.flow = {.working_width_px = 300,
+                   .smoothing_sigma_px = 0.7,
+                   .normalization_window_px = 27,
+                   .normalization_floor = 3.5,
+                   .min_eigenvalue = 0.011,
+                   .cell_px = 9,
+                   .window_px = 13,
+                   .pyramid_levels = 2,
+                   .max_forward_backward_px = 0.6};
+  settings.landmark = {.min_vector_length_px = 0.4,
+                       .min_vectors = 7,
+                       .histogram_bins = 20,
+                       .max_valley_ratio = 0.45,
+                       .min_peak_share = 1.0 / 7,
+                       .max_track_distance_px = 21,
+                       .max_track_gap_steps = 3};
+  settings.deviation_model_name = "deviationModels/wide";
+  return settings;
+}
+
+TEST(SettingsConversion, EverySettingComesBack) {
+  const JourneySettings settings = OddSettings();
+  const auto back = FromProto(ToProto(settings), "settings", JourneySettings());
+  ASSERT_THAT(back, IsOk());
+  EXPECT_TRUE(*back == settings);
+}
+
+TEST(SettingsConversion, WhatIsUnsetIsTakenFromTheDefaults) {
+  const JourneySettings defaults = OddSettings();
+  const auto settings = FromProto(v1::JourneySettings(), "settings", defaults);
+  ASSERT_THAT(settings, IsOk());
+  EXPECT_TRUE(*settings == defaults);
+}
+
+TEST(SettingsConversion, ACameraWithoutIntrinsicsWorksInRawPixels) {
+  v1::Camera message;
+  message.set_width(320);
+  message.set_height(240);
+  const auto camera = FromProto(message, "camera");
+  ASSERT_THAT(camera, IsOk());
+  EXPECT_FALSE(camera->intrinsics.has_value());
+  EXPECT_EQ(camera->width, 320);
+}
+
+// The settings of OddSettings() after `change` are refused, and `why` is in the message.
+template <typename Change>
+void ExpectRefused(Change change, const std::string& why) {
+  v1::JourneySettings message = ToProto(OddSettings());
+  change(message);
+  EXPECT_THAT(FromProto(message, "settings", JourneySettings()),
+              StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr(why)));
+}
+
+TEST(SettingsConversion, RefusesWrongSettingsByName) {
+  ExpectRefused([](v1::JourneySettings& m) { m.mutable_left_camera()->set_width(-1); },
+                "settings.left_camera.width is -1: must be 0 to 8192");
+  ExpectRefused([](v1::JourneySettings& m) { m.mutable_right_camera()->set_height(8193); },
+                "settings.right_camera.height is 8193");
+  ExpectRefused([](v1::JourneySettings& m) { m.mutable_left_camera()->add_distortion(1); },
+                "settings.left_camera.distortion has 6 entries");
+  ExpectRefused([](v1::JourneySettings& m) { m.mutable_left_camera()->set_distortion(0, NAN); },
+                "settings.left_camera: ");
+  ExpectRefused([](v1::JourneySettings& m) { m.mutable_left_camera()->set_yaw_rad(3); }, "yaw_rad");
+  ExpectRefused([](v1::JourneySettings& m) { m.mutable_right_camera()->set_yaw_rad(0.1); },
+                "yaw_rad");
+  ExpectRefused([](v1::JourneySettings& m) { m.mutable_flow()->set_window_px(14); }, "window_px");
+  ExpectRefused([](v1::JourneySettings& m) { m.mutable_flow()->set_min_eigenvalue(NAN); },
+                "min_eigenvalue");
+  ExpectRefused([](v1::JourneySettings& m) { m.mutable_landmark()->set_min_peak_share(0.6); },
+                "min_peak_share");
+}
+
+}  // namespace
+}  // namespace homing::wire

@@ -1,0 +1,25 @@
+#!/bin/sh
+# Installs what is missing, builds, and runs every test; arguments go to ctest, whose closing line
+# comes last. HOMING_PRESET (default dev) names the CMake preset; HOMING_DATA a folder of real
+# sequences, without which the tests that need them are skipped and say so.
+set -eu
+cd "$(dirname "$0")/.."
+preset=${HOMING_PRESET:-dev}
+jobs=$(nproc)
+
+sh deploy/install.sh build client test
+mkdir -p build
+quietly() {
+  log=build/$preset-$1.log
+  shift
+  "$@" >"$log" 2>&1 </dev/null || { tail -n 200 "$log" >&2; exit 1; }
+}
+echo "Building preset $preset (log: build/$preset-build.log)"
+quietly configure cmake --preset "$preset"
+quietly build cmake --build --preset "$preset" -j "$jobs"
+
+log=build/$preset-test.log
+status=0
+ctest --preset "$preset" -j "$jobs" --output-on-failure --no-tests=error -O "$log" "$@" </dev/null || status=$?
+grep 'tests passed,' "$log" | tail -n 1
+exit "$status"

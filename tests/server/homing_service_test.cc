@@ -1,0 +1,125 @@
+// Queries: wildcards, changed sides, wrong questions, one-shot matching.
+#include "homing/flow/observation.h"
+#include "homing/image/frame.h"
+#include "tests/server/server_fixture.h"
+#include "tests/support/status_matchers.h"
+
+namespace homing::server {
+namespace {
+
+using ::testing::HasSubstr;
+
+class HomingServiceTest : public ServerTest {
+ protected:
+  void SetUp() override { ASSERT_THAT(Create(), IsGrpcOk()); }
+};
+
+TEST_F(HomingServiceTest, AWildcardSkipsJourneysOfAnotherCamera) {
+  RecordFlow(0, 20);
+  ASSERT_THAT(Create("wide"), IsGrpcOk());
+  {
+    Recording recording(journeys_.get(), "robots/r/journeys/wide");
+    Observation wide;
+    wide.views[0] = test::FieldAt(0, Side::kLeft, 640, 480);
+    wide.views[1] = test::FieldAt(0, Side::kRight, 640, 480);
+    recording.Record(wide);
+  }
+  for (const char* pattern :
+       {"robots/r/journeys/-", "robots/-/journeys/-", "robots/-/journeys/out"}) {
+    Localizing localizing(homing_.get(), LocalizeOn(pattern));
+    const v1::LocalizeResponse answer = localizing.Localize(test::FlowAt(0, 7));
+    ASSERT_GT(answer.matches_size(), 0) << pattern;
+    EXPECT_EQ(answer.matches(0).journey(), kJourney);
+  }
+  Localizing none_left(homing_.get(), LocalizeOn("robots/-/journeys/wide"));
+  none_left.Send(test::FlowAt(0));
+  EXPECT_THAT(none_left.AwaitEnd(), GrpcStatusIs(grpc::StatusCode::FAILED_PRECONDITION,
+                                                 HasSubstr("none has the camera")));
+  Localizing nothing(homing_.get(), LocalizeOn("robots/nobody/journeys/-"));
+  EXPECT_THAT(nothing.AwaitEnd(),
+              GrpcStatusIs(grpc::StatusCode::NOT_FOUND, HasSubstr("robots/nobody")));
+}
+
+TEST_F(HomingServiceTest, OnTheWayBackTheCamerasHaveChangedSides) {
+  RecordFlow(0, 20);
+  Observation back = test::FlowAt(0, 7);
+  std::swap(back.views[0], back.views[1]);
+  Localizing localizing(homing_.get(), LocalizeOn(kJourney, v1::TRAVEL_RETURN));
+  const v1::LocalizeResponse answer = localizing.Localize(back);
+  ASSERT_GT(answer.matches_size(), 1);
+  EXPECT_DOUBLE_EQ(answer.matches(1).p_t(), 1);
+}
+
+TEST_F(HomingServiceTest, WrongQueriesAreInvalid) {
+  v1::LocalizeConfig config = LocalizeOn("robots/r");
+  EXPECT_THAT(Localizing(homing_.get(), config).AwaitEnd(),
+              GrpcStatusIs(grpc::StatusCode::INVALID_ARGUMENT, HasSubstr("config.journey")));
+  config = LocalizeOn(kJourney);
+  config.set_threshold(1.5);
+  EXPECT_THAT(Localizing(homing_.get(), config).AwaitEnd(),
+              GrpcStatusIs(grpc::StatusCode::INVALID_ARGUMENT, HasSubstr("threshold")));
+  config = LocalizeOn(kJourney);
+  config.set_max_matches(1001);
+  EXPECT_THAT(Localizing(homing_.get(), config).AwaitEnd(),
+              GrpcStatusIs(grpc::StatusCode::INVALID_ARGUMENT, HasSubstr("max_matches")));
+  config = LocalizeOn(kJourney, static_cast<v1::Travel>(9));
+  EXPECT_THAT(Localizing(homing_.get(), config).AwaitEnd(),
+              GrpcStatusIs(grpc::StatusCode::INVALID_ARGUMENT, HasSubstr("travel")));
+}
+
+// Two frames, their flow vectors and their fingerprints are one question in three forms.
+TEST_F(HomingServiceTest, OneShotMatchingTakesFramesFlowVectorsAndFingerprints) {
+  const std::string before = test::WallAt(4, Side::kLeft);
+  const std::string after = test::WallAt(5, Side::kLeft);
+  Recording recording(journeys_.get(), kJourney);
+  for (int i = 0; i < 10; ++i) {
+    const std::string bytes = test::WallAt(i, Side::kLeft);
+    Observation observation;
+    observation.sequence = i;
+    observation.views[0] = test::GrayFrame(bytes);
+    recording.Record(observation);
+  }
+  const auto match = [this](const v1::MatchLandmarksRequest& request) {
+    grpc::ClientContext context;
+    v1::MatchLandmarksResponse response;
+    EXPECT_THAT(homing_->MatchLandmarks(&context, request, &response), IsGrpcOk());
+    return response;
+  };
+  v1::MatchLandmarksRequest frames;
+  frames.set_journey(kJourney);
+  frames.set_travel(v1::TRAVEL_SAME);
+  Observation pair;
+  pair.views[0] = test::GrayFrame(before);
+  *frames.mutable_left()->mutable_frames()->mutable_first() =
+      RecordRequest(pair).observation().left().frame();
+  pair.views[0] = test::GrayFrame(after);
+  *frames.mutable_left()->mutable_frames()->mutable_second() =
+      RecordRequest(pair).observation().left().frame();
+  const v1::MatchLandmarksResponse seen = match(frames);
+  EXPECT_EQ(seen.motion(), v1::MOTION_MOVING);
+  ASSERT_GT(seen.matches_size(), 0);
+  EXPECT_EQ(seen.matches(0).step(), 4);
+  EXPECT_DOUBLE_EQ(seen.matches(0).p_t(), 1);
+
+  v1::MatchLandmarksRequest fingerprints = frames;
+  auto* set = fingerprints.mutable_left()->mutable_fingerprints();
+  set->set_width(test::kWidth);
+  set->set_height(test::kHeight);
+  *set->mutable_fingerprints() = seen.seen();
+  const v1::MatchLandmarksResponse again = match(fingerprints);
+  ASSERT_EQ(again.matches_size(), seen.matches_size());
+  EXPECT_EQ(again.matches(0).SerializeAsString(), seen.matches(0).SerializeAsString());
+
+  set->set_width(640);
+  grpc::ClientContext context;
+  v1::MatchLandmarksResponse response;
+  EXPECT_THAT(homing_->MatchLandmarks(&context, fingerprints, &response),
+              GrpcStatusIs(grpc::StatusCode::FAILED_PRECONDITION, HasSubstr("640")));
+  fingerprints.clear_left();
+  grpc::ClientContext empty_context;
+  EXPECT_THAT(homing_->MatchLandmarks(&empty_context, fingerprints, &response),
+              GrpcStatusIs(grpc::StatusCode::INVALID_ARGUMENT, HasSubstr("left")));
+}
+
+}  // namespace
+}  // namespace homing::server

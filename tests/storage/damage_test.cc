@@ -1,0 +1,149 @@
+// Damaged files, contradicting rows, a full disk, a locked file.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sqlite3.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "storage/connection.h"
+#include "tests/storage/store_fixture.h"
+#include "tests/support/status_matchers.h"
+
+namespace homing::storage {
+namespace {
+
+using ::testing::HasSubstr;
+
+constexpr char kJourney[] = "robots/r/journeys/j";
+
+StoreOptions OptionsOf(const std::string& url) {
+  StoreOptions options;
+  options.url = url;
+  options.busy_timeout_ms = 20;
+  return options;
+}
+
+class DamageTest : public ::testing::Test {
+ protected:
+  // A closed file with one journey of `steps` steps.
+  void MakeFile(int steps) {
+    auto store = OpenOrDie(folder_.Url());
+    ASSERT_THAT(store->CreateJourney(Record(kJourney)), IsOk());
+    std::vector<JourneyAppend> appends;
+    for (const JourneyStep& step : MakeSteps(steps)) appends.push_back(AppendOf(kJourney, step));
+    for (const absl::Status& status : store->AppendSteps(appends)) ASSERT_THAT(status, IsOk());
+  }
+  void Execute(const std::string& sql) {
+    auto connection = Connection::Open(path_, Connection::Access::kReadWrite, 100);
+    ASSERT_THAT(connection, IsOk());
+    ASSERT_THAT((*connection)->Run([&] {
+      (*connection)->Execute(sql);
+      return absl::OkStatus();
+    }),
+                IsOk());
+  }
+
+  TemporaryFolder folder_;
+  const std::string path_ = folder_.File("homing.db");
+};
+
+TEST_F(DamageTest, AFileThatIsNoDatabaseIsDataLoss) {
+  std::ofstream(path_) << std::string(8192, 'x');
+  EXPECT_THAT(OpenJourneyStore(OptionsOf(folder_.Url())),
+              StatusIs(absl::StatusCode::kDataLoss, HasSubstr("not a database")));
+}
+
+TEST_F(DamageTest, OverwrittenPagesAreDataLossAndNoCrash) {
+  MakeFile(500);
+  const auto size = std::filesystem::file_size(path_);
+  ASSERT_GT(size, 10 * 4096U);
+  {
+    std::fstream file(path_, std::ios::in | std::ios::out | std::ios::binary);
+    file.seekp(4096 * 4);
+    for (auto at = 4096U * 4; at < size; ++at) file.put(static_cast<char>(at * 7));
+  }
+  auto store = OpenJourneyStore(OptionsOf(folder_.Url()));
+  ASSERT_THAT(store, IsOk());
+  EXPECT_THAT((*store)->LoadMap(kJourney), StatusIs(absl::StatusCode::kDataLoss, HasSubstr("")));
+}
+
+TEST_F(DamageTest, ATruncatedFileIsDataLoss) {
+  MakeFile(500);
+  std::filesystem::resize_file(path_, 4096 * 5);
+  auto store = OpenJourneyStore(OptionsOf(folder_.Url()));
+  const absl::Status status = store.ok() ? (*store)->LoadMap(kJourney).status() : store.status();
+  EXPECT_THAT(status, StatusIs(absl::StatusCode::kDataLoss, HasSubstr("")));
+}
+
+TEST_F(DamageTest, RowsThatContradictEachOtherAreDataLoss) {
+  MakeFile(30);
+  const std::vector<std::string> changes = {
+      "DELETE FROM fingerprints WHERE step = 7",
+      "DELETE FROM landmarks WHERE landmark = 1",
+      "UPDATE landmarks SET side = 'LEFT'",
+      "UPDATE landmarks SET first_step = first_step + 1 WHERE landmark = 2",
+      "UPDATE landmarks SET spread = -1 WHERE landmark = 0",
+      "UPDATE fingerprints SET landmark = 5000 WHERE step = 3",
+      "UPDATE fingerprints SET count = 0 WHERE step = 3",
+      "UPDATE fingerprints SET x = 1e300 WHERE step = 3",
+      "UPDATE journeys SET step_count = 5",
+      "UPDATE journeys SET step_count = -1",
+      "UPDATE journeys SET step_count = 1000000000000",
+      "UPDATE journeys SET fingerprint_count = 5",
+      "UPDATE journeys SET settings = '{}'",
+      "UPDATE journeys SET settings = 'nonsense'",
+      "UPDATE journeys SET readers = '[1]'"};
+  const std::string original = path_ + ".original";
+  std::filesystem::copy_file(path_, original);
+  for (const std::string& change : changes) {
+    std::filesystem::copy_file(original, path_, std::filesystem::copy_options::overwrite_existing);
+    Execute(change);
+    EXPECT_THAT(OpenOrDie(folder_.Url())->LoadMap(kJourney),
+                StatusIs(absl::StatusCode::kDataLoss, HasSubstr("store")))
+        << change;
+  }
+}
+
+TEST_F(DamageTest, AFullDiskIsToldAndStoresNothingByHalves) {
+  auto store = OpenOrDie(folder_.Url(), 200 * 1024);
+  ASSERT_THAT(store->CreateJourney(Record(kJourney)), IsOk());
+  StepMaker maker;
+  absl::Status status;
+  std::int64_t stored = 0;
+  while (status.ok() && stored < 100'000) {
+    std::vector<JourneyAppend> appends;
+    for (int i = 0; i < 50; ++i) appends.push_back(AppendOf(kJourney, maker.Next()));
+    const auto statuses = store->AppendSteps(appends);
+    status = statuses[0];
+    for (const absl::Status& other : statuses) EXPECT_EQ(other, status);
+    if (status.ok()) stored += 50;
+  }
+  EXPECT_THAT(status, StatusIs(absl::StatusCode::kResourceExhausted, HasSubstr("full")));
+  const auto map = store->LoadMap(kJourney);
+  ASSERT_THAT(map, IsOk());
+  EXPECT_TRUE(SameMap(*map, MapOf(OddSettings(), MakeSteps(static_cast<int>(stored)))));
+  // Room again.
+  ASSERT_THAT(store->DeleteJourney(kJourney), IsOk());
+  ASSERT_THAT(store->CreateJourney(Record(kJourney)), IsOk());
+  AppendAll(*store, kJourney, MakeSteps(10));
+}
+
+TEST_F(DamageTest, AFileThatAnotherProcessKeepsLockedIsUnavailable) {
+  MakeFile(1);
+  auto store = OpenJourneyStore(OptionsOf(folder_.Url()));
+  ASSERT_THAT(store, IsOk());
+  auto other = Connection::Open(path_, Connection::Access::kReadWrite, 20);
+  ASSERT_THAT(other, IsOk());
+  ASSERT_THAT((*other)->Write([&] {
+    EXPECT_THAT((*store)->FinishJourney(kJourney),
+                StatusIs(absl::StatusCode::kUnavailable, HasSubstr("locked")));
+    EXPECT_THAT((*store)->LoadMap(kJourney), IsOk());
+    return absl::OkStatus();
+  }),
+              IsOk());
+  EXPECT_THAT((*store)->FinishJourney(kJourney), IsOk());
+}
+
+}  // namespace
+}  // namespace homing::storage
