@@ -1,0 +1,83 @@
+# shellcheck shell=bash disable=SC2154 # sourced by .ci/run, whose logs, jobs and scratch are meant
+# The stages of .ci/run, in its order.
+
+project_sources() { git ls-files '*.cc' '*.h'; }
+
+stage_packages() {
+  sh deploy/install.sh build client test check
+  # What the last stages need may be missing: they then say so.
+  sh deploy/install.sh container || echo "containers cannot be tried here"
+}
+
+stage_format() { project_sources | xargs clang-format --dry-run --Werror; }
+
+stage_shell() {
+  git ls-files '*.sh' | xargs shellcheck -S warning .ci/run
+}
+
+stage_proto() {
+  command -v npm >/dev/null || skip "npm is not installed, so buf cannot be fetched"
+  local buf=$PWD/build/ci/buf
+  mkdir -p "$buf"
+  [ -x "$buf/node_modules/.bin/buf" ] ||
+    npm install --prefix "$buf" --ignore-scripts --no-audit --no-fund --loglevel=error @bufbuild/buf@1 ||
+    skip "buf cannot be fetched from the npm registry"
+  "$buf/node_modules/.bin/buf" lint proto
+}
+
+# A Debian 12 with git alone, and a clone of what is committed.
+stage_bare() {
+  [ "$(id -u)" -eq 0 ] || skip "a bare root needs root"
+  command -v mmdebstrap >/dev/null || skip "mmdebstrap is not installed"
+  unshare --mount --pid --fork true || skip "no mount namespaces here"
+  sh deploy/base.sh "$scratch/base.tar"
+  mkdir "$scratch/root"
+  tar -xf "$scratch/base.tar" -C "$scratch/root"
+  git clone -q "file://$PWD" "$scratch/root/homing"
+}
+
+in_bare_root() { DATA=${HOMING_DATA:-} sh .ci/bare_root.sh "$scratch/root" "$@"; }
+
+# The first command of README.md; the second run must need neither network nor more than 10 s to set up.
+stage_quickstart() {
+  if [ ! -d "$scratch/root/homing" ]; then
+    sh deploy/quickstart.sh
+    return
+  fi
+  in_bare_root sh /homing/deploy/quickstart.sh
+  unshare --net true || skip "no network namespaces here: second run without network not tried"
+  unshare --net sh -c 'ip link set lo up && exec "$@"' sh \
+    sh .ci/bare_root.sh "$scratch/root" sh /homing/deploy/quickstart.sh | tee "$scratch/second.log"
+  # "Set-up took N s"
+  [ "$(sed -n 's/^Set-up took \([0-9]*\) s.*/\1/p' "$scratch/second.log")" -lt 10 ]
+}
+
+# The second command of README.md.
+stage_tests() {
+  if [ -d "$scratch/root/homing" ]; then
+    in_bare_root sh /homing/tests/run.sh
+  else
+    echo "No bare root: on this machine instead."
+    sh tests/run.sh
+  fi
+}
+
+stage_asan() { HOMING_PRESET=asan sh tests/run.sh; }
+
+# Sources outside tests/.
+stage_tidy() {
+  cmake --preset tidy
+  cmake --build --preset tidy -j "$jobs" -- -k 0
+}
+
+stage_tsan() { HOMING_PRESET=tsan sh tests/run.sh; }
+
+stage_image() {
+  [ "$(id -u)" -eq 0 ] || skip "building images here needs root"
+  command -v buildah >/dev/null || skip "buildah is not installed"
+  command -v podman >/dev/null || skip "podman is not installed"
+  [ ! -f "$scratch/base.tar" ] || export BASE_TAR=$scratch/base.tar
+  local client=$scratch/root/homing/build/release/client/homing
+  [ ! -x "$client" ] || export CLIENT=$client
+  sh deploy/image.sh
+}
