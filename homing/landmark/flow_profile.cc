@@ -2,53 +2,20 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
-#include <vector>
-
-#include "homing/flow/median.h"
 
 namespace homing {
 namespace {
 
 // Shorter flow is noise: it has no more parallax than this. Pixels.
 constexpr double kLeastFlowPx = 0.05;
+constexpr int kOutside = -1;
 
-struct CellFlow {
-  int cell = 0;
-  double length = 0;
-};
-
-// Cell of a midpoint of the magnified field; -1: outside the image.
-int CellOf(const FlowField& field, const FlowVector& vector, double magnification) {
-  const double x = 0.5 + (vector.MidX() - 0.5 * (field.width - 1)) * magnification / field.width;
-  const double y = 0.5 + (vector.MidY() - 0.5 * (field.height - 1)) * magnification / field.height;
+int CellOf(double x, double y) {
   if (!(x >= 0 && x < 1 && y >= 0 && y < 1)) {
-    return -1;
+    return kOutside;
   }
   return static_cast<int>(y * FlowProfile::kRows) * FlowProfile::kColumns +
          static_cast<int>(x * FlowProfile::kColumns);
-}
-
-std::vector<CellFlow> FlowByCell(const FlowField& field, double magnification) {
-  std::vector<CellFlow> flows;
-  flows.reserve(field.vectors.size());
-  for (const FlowVector& vector : field.vectors) {
-    const double length = vector.Length();
-    const int cell = std::isfinite(length) ? CellOf(field, vector, magnification) : -1;
-    if (cell >= 0) {
-      flows.push_back({cell, std::max(length, kLeastFlowPx)});
-    }
-  }
-  std::ranges::sort(flows, {}, &CellFlow::cell);
-  return flows;
-}
-
-double MedianLength(const CellFlow* begin, const CellFlow* end) {
-  std::vector<double> lengths;
-  lengths.reserve(static_cast<std::size_t>(end - begin));
-  std::transform(begin, end, std::back_inserter(lengths),
-                 [](const CellFlow& flow) { return flow.length; });
-  return Median(lengths);
 }
 
 std::uint8_t CodeOf(double share, double relative_flow) {
@@ -61,25 +28,59 @@ std::uint8_t CodeOf(double share, double relative_flow) {
   return static_cast<std::uint8_t>(parallax_code << 4 | share_code);
 }
 
+struct CellFlow {
+  int count = 0;
+  int seen = 0;
+  double median = 0;
+};
+
 }  // namespace
 
-FlowProfile MakeFlowProfile(const FlowField& field, double magnification) {
-  FlowProfile profile;
-  const std::vector<CellFlow> flows = FlowByCell(field, magnification);
-  if (flows.empty()) {
-    return profile;
+ProfileMaker::ProfileMaker(const FlowField& field) {
+  midpoints_.reserve(field.vectors.size());
+  for (const FlowVector& vector : field.vectors) {
+    const double length = vector.Length();
+    if (std::isfinite(length)) {
+      midpoints_.push_back({.x = (vector.MidX() - 0.5 * (field.width - 1)) / field.width,
+                            .y = (vector.MidY() - 0.5 * (field.height - 1)) / field.height,
+                            .length = std::max(length, kLeastFlowPx)});
+    }
   }
-  const CellFlow* const all_end = flows.data() + flows.size();
-  const double median = MedianLength(flows.data(), all_end);
+  std::ranges::sort(midpoints_, {}, &Midpoint::length);
+}
+
+FlowProfile ProfileMaker::Make(double magnification) const {
+  std::vector<int> cell_of;
+  cell_of.reserve(midpoints_.size());
+  std::array<CellFlow, FlowProfile::kCells> cells{};
+  CellFlow all;
+  for (const Midpoint& midpoint : midpoints_) {
+    const int cell = CellOf(0.5 + midpoint.x * magnification, 0.5 + midpoint.y * magnification);
+    cell_of.push_back(cell);
+    if (cell != kOutside) {
+      ++all.count;
+      ++cells[static_cast<std::size_t>(cell)].count;
+    }
+  }
+  // Shortest first: the median is the one in the middle.
+  const auto pass = [](CellFlow& flow, double length) {
+    if (flow.seen++ == flow.count / 2) flow.median = length;
+  };
+  for (std::size_t i = 0; i < midpoints_.size(); ++i) {
+    if (cell_of[i] != kOutside) {
+      pass(all, midpoints_[i].length);
+      pass(cells[static_cast<std::size_t>(cell_of[i])], midpoints_[i].length);
+    }
+  }
   // Share of this image that the magnified one fills.
   const double filled = std::min(1.0, magnification * magnification);
-  const double whole = std::sqrt(static_cast<double>(flows.size()) * FlowProfile::kUsualCount);
-  for (const CellFlow* begin = flows.data(); begin != all_end;) {
-    const CellFlow* const end = std::find_if(
-        begin, all_end, [cell = begin->cell](const CellFlow& f) { return f.cell != cell; });
-    profile.cells[static_cast<std::size_t>(begin->cell)] = CodeOf(
-        filled * static_cast<double>(end - begin) / whole, MedianLength(begin, end) / median);
-    begin = end;
+  const double whole = std::sqrt(static_cast<double>(all.count) * FlowProfile::kUsualCount);
+  FlowProfile profile;
+  for (std::size_t cell = 0; cell < cells.size(); ++cell) {
+    const CellFlow& flow = cells[cell];
+    if (flow.count > 0) {
+      profile.cells[cell] = CodeOf(filled * flow.count / whole, flow.median / all.median);
+    }
   }
   return profile;
 }

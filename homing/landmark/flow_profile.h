@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstdint>
+#include <vector>
 
 #include "homing/flow/flow_vector.h"
 
@@ -36,11 +37,30 @@ struct FlowProfile {
   friend bool operator==(const FlowProfile&, const FlowProfile&) = default;
 };
 
-// Of a rectified field's vectors, by their midpoints; those outside the image and non-finite ones
-// are left out. All cells 0 if none is left. `magnification` > 0: as the same camera would see it
-// from so much nearer (about the middle of the image); one that fills only a part of the image has
-// that part of the vectors.
-FlowProfile MakeFlowProfile(const FlowField& field, double magnification = 1);
+// Makes profiles of one rectified field. Immutable.
+class ProfileMaker {
+ public:
+  // Non-finite vectors are left out.
+  explicit ProfileMaker(const FlowField& field);
+
+  // Of the vectors, by their midpoints; those outside the image are left out. All cells 0 if none
+  // is left. `magnification` > 0: as the same camera would see it from so much nearer (about the
+  // middle of the image); one that fills only a part of the image has that part of the vectors.
+  FlowProfile Make(double magnification = 1) const;
+
+ private:
+  // Midpoint from the middle of the image, in images; length in pixels.
+  struct Midpoint {
+    double x = 0;
+    double y = 0;
+    double length = 0;
+  };
+
+  // The shortest vector first.
+  std::vector<Midpoint> midpoints_;
+};
+
+inline FlowProfile MakeFlowProfile(const FlowField& field) { return ProfileMaker(field).Make(); }
 
 }  // namespace homing
 

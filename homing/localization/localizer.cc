@@ -109,7 +109,7 @@ SeenProfiles Localizer::MakeRouteProfiles(const ObservedFlow& flow, Motion motio
   for (const Side camera : {Side::kLeft, Side::kRight}) {
     const auto& field = flow.fields[static_cast<std::size_t>(camera)];
     if (field && motion == Motion::kMoving) {
-      seen[static_cast<std::size_t>(RouteSide(camera, options_.travel))] = MakeProfileViews(*field);
+      seen[static_cast<std::size_t>(RouteSide(camera, options_.travel))].emplace(*field);
     }
   }
   return seen;

@@ -15,9 +15,16 @@ constexpr double kDirectionMargin = 0.6;
 constexpr double kLeastMass = 1e-30;
 // Fitted: see docs/algorithm.md.
 constexpr MembershipRates kByProfiles = {
-    .first_weight = 0.7, .weight = 0.06, .least_log_odds = -2.6, .most_log_odds = 0.2};
+    .first_weight = 0.7, .weight = 0.06, .least_log_odds = -4, .most_log_odds = 0.2};
 constexpr MembershipRates kByLandmarks = {
     .first_weight = 1, .weight = 1, .least_log_odds = -30, .most_log_odds = 7.6};
+// An observation whose likelihood ratio, for one side, has less than this logarithm does not fit:
+// the robot may be anywhere.
+constexpr double kLeastFit = 0.25;
+// Observations in a row that must fit before far steps are no longer held one by one.
+constexpr int kCalm = 6;
+// Steps of less mass are far, then.
+constexpr double kFarMass = 1e-9;
 // The filter is cautious: of the intervals that it holds p for, 1 - (1 - p)^kCaution were right.
 constexpr double kCaution = 1.86;
 
@@ -59,49 +66,72 @@ void PositionFilter::Grow(std::span<const JourneyRef> journeys) {
     return;
   }
   const double mean = 1 / static_cast<double>(before == 0 ? step_count_ : before);
+  double mass = 0;
   for (std::size_t i = 0; i < journeys.size(); ++i) {
     beliefs_[i].Grow(journeys[i].map->step_count(), mean);
+    mass += beliefs_[i].Mass();
   }
-  Normalize();
+  Normalise(mass);
+  masses_ = Masses();
 }
 
-// What runs off the ends was no way that the robot went: the others share its mass.
 void PositionFilter::Predict(Motion motion) {
+  const double restart = options_.restart_probability / static_cast<double>(step_count_);
   for (RouteBelief& belief : beliefs_) {
-    motion == Motion::kMoving ? belief.Move() : belief.Turn();
+    motion == Motion::kMoving ? belief.Move(restart) : belief.Turn(restart);
   }
-  Normalize();
-  const double restarted = options_.restart_probability / static_cast<double>(step_count_);
-  for (RouteBelief& belief : beliefs_) {
-    belief.Scale(1 - options_.restart_probability);
-    belief.AddToEach(restarted);
+  masses_ = Masses();
+}
+
+std::vector<StepMass> PositionFilter::Masses() const {
+  std::vector<StepMass> masses;
+  masses.reserve(beliefs_.size());
+  for (const RouteBelief& belief : beliefs_) {
+    masses.push_back(belief.Masses());
   }
+  return masses;
+}
+
+// What ran off the ends was no way that the robot went: it does not count as predicted.
+double PositionFilter::Weigh(const std::vector<StepMass>& predicted,
+                             const std::function<std::span<const float>(std::size_t)>& factors) {
+  double before = 0;
+  double after = 0;
+  for (std::size_t i = 0; i < beliefs_.size(); ++i) {
+    const double beyond = beliefs_[i].MassBeyond();
+    before += predicted[i].Sum() + beyond;
+    masses_[i] = beliefs_[i].Weigh(factors(i));
+    after += masses_[i].Sum() + beyond;
+  }
+  Normalise(after);
+  return std::log(std::max(after, kLeastMass) / std::max(before, kLeastMass));
 }
 
 void PositionFilter::CorrectByProfiles(std::span<const JourneyRef> journeys,
                                        const SeenProfiles& profiles) {
-  std::vector<std::vector<double>> predicted;
-  predicted.reserve(beliefs_.size());
-  for (const RouteBelief& belief : beliefs_) {
-    predicted.push_back(belief.StepMass());
+  profile_likelihood_.Compute(journeys, profiles, masses_);
+  const bool fits = profile_likelihood_.LogFit() >= kLeastFit;
+  calm_ = fits ? calm_ + 1 : 0;
+  const bool focused = std::ranges::any_of(beliefs_, &RouteBelief::IsFocused);
+  if (!fits && focused) {
+    Unfocus();
+    profile_likelihood_.Compute(journeys, profiles, masses_);
   }
-  profile_likelihood_.Compute(journeys, profiles, predicted);
-  for (std::size_t i = 0; i < beliefs_.size(); ++i) {
-    beliefs_[i].Weigh(profile_likelihood_.of(i));
-  }
-  const double mass = Normalize();
-  membership_.Add(std::log(std::max(mass, kLeastMass)) - profile_likelihood_.OffRoute(),
-                  kByProfiles);
+  const double evidence =
+      Weigh(masses_, [this](std::size_t i) { return profile_likelihood_.of(i); });
+  membership_.Add(evidence - profile_likelihood_.OffRoute(), kByProfiles);
+  profile_likelihood_.Learn();
+  FocusIfCalm();
 }
 
 void PositionFilter::CorrectByLandmarks(std::span<const JourneyRef> journeys,
                                         const SeenSides& seen) {
+  Unfocus();
+  calm_ = 0;
   likelihood_.Compute(journeys, seen);
-  for (std::size_t i = 0; i < beliefs_.size(); ++i) {
-    beliefs_[i].Weigh(likelihood_.of(i));
-  }
-  const double mass = Normalize();
-  membership_.Add(std::log(std::max(mass, kLeastMass) / likelihood_.OffRoute()), kByLandmarks);
+  const double evidence =
+      Weigh(masses_, [this](std::size_t i) { return std::span<const float>(likelihood_.of(i)); });
+  membership_.Add(evidence - std::log(likelihood_.OffRoute()), kByLandmarks);
 }
 
 void PositionFilter::Correct(std::span<const JourneyRef> journeys, const SeenSides& seen,
@@ -113,19 +143,40 @@ void PositionFilter::Correct(std::span<const JourneyRef> journeys, const SeenSid
   }
 }
 
-double PositionFilter::Normalize() {
-  double mass = 0;
-  for (const RouteBelief& belief : beliefs_) {
-    mass += belief.Mass();
+void PositionFilter::FocusIfCalm() {
+  if (calm_ < kCalm) {
+    return;
   }
+  for (std::size_t i = 0; i < beliefs_.size(); ++i) {
+    beliefs_[i].Focus(kFarMass, masses_[i]);
+  }
+  masses_ = Masses();
+}
+
+void PositionFilter::Unfocus() {
   for (RouteBelief& belief : beliefs_) {
+    belief.Unfocus();
+  }
+  masses_ = Masses();
+}
+
+void PositionFilter::Normalise(double mass) {
+  for (std::size_t i = 0; i < beliefs_.size(); ++i) {
     if (mass > kLeastMass) {
-      belief.Scale(1 / mass);
+      beliefs_[i].Scale(1 / mass);
     } else {
-      belief.AddToEach(1 / static_cast<double>(step_count_));
+      beliefs_[i].AddToEach(1 / static_cast<double>(step_count_));
     }
   }
-  return mass;
+  if (mass > kLeastMass) {
+    for (StepMass& of_journey : masses_) {
+      for (float& value : of_journey.mass) {
+        value /= static_cast<float>(mass);
+      }
+    }
+  } else {
+    masses_ = Masses();
+  }
 }
 
 Position PositionFilter::Answer() const {
@@ -140,7 +191,8 @@ Position PositionFilter::Answer() const {
   }
   StepWindow best;
   for (std::size_t i = 0; i < beliefs_.size(); ++i) {
-    const StepWindow window = BestWindow(beliefs_[i].StepMass(), options_.tolerance_steps);
+    const StepWindow window =
+        BestWindow(masses_[i], options_.tolerance_steps, beliefs_[i].step_count());
     if (window.mass > best.mass) {
       best = window;
       position.journey = static_cast<int>(i);

@@ -4,6 +4,7 @@
 #define HOMING_LOCALIZATION_POSITION_FILTER_H_
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
@@ -75,8 +76,18 @@ class PositionFilter {
                const SeenProfiles& profiles);
   void CorrectByProfiles(std::span<const JourneyRef> journeys, const SeenProfiles& profiles);
   void CorrectByLandmarks(std::span<const JourneyRef> journeys, const SeenSides& seen);
-  // Makes the mass of all steps 1. Returns what it was.
-  double Normalize();
+  // By journey, of the steps in focus.
+  std::vector<StepMass> Masses() const;
+  // Multiplies each journey's steps in focus by its factors. Returns how likely the observation was
+  // where the robot was believed to be, logarithm.
+  double Weigh(const std::vector<StepMass>& predicted,
+               const std::function<std::span<const float>(std::size_t)>& factors);
+  // Where the robot is well known, only steps about there are held one by one; where it is not,
+  // all.
+  void FocusIfCalm();
+  void Unfocus();
+  // Makes the mass of all steps 1, where it was `mass`.
+  void Normalise(double mass);
   Position Answer() const;
 
   PositionOptions options_;
@@ -85,9 +96,13 @@ class PositionFilter {
   RouteMembership membership_;
   // By journey: where, if on a route at all. Together the mass is 1.
   std::vector<RouteBelief> beliefs_;
+  // After the last observation, by journey.
+  std::vector<StepMass> masses_;
   std::int64_t step_count_ = 0;
   // A moving observation has been taken.
   bool started_ = false;
+  // Observations in a row that fitted where the robot was believed to be.
+  int calm_ = 0;
 };
 
 }  // namespace homing

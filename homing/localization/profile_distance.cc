@@ -4,13 +4,7 @@
 #include <cmath>
 #include <cstddef>
 
-// One clone a kind of machine, chosen when the program starts. ThreadSanitizer is not ready when
-// that happens.
-#if defined(__x86_64__) && !defined(__SANITIZE_THREAD__) && !defined(__SANITIZE_ADDRESS__)
-#define HOMING_VECTOR_CLONES __attribute__((target_clones("avx2", "default")))
-#else
-#define HOMING_VECTOR_CLONES
-#endif
+#include "homing/vector_clones.h"
 
 namespace homing {
 namespace {

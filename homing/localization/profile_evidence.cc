@@ -23,18 +23,18 @@ constexpr double kMiddleWorth = 2;
 }  // namespace
 
 // The lower half holds the matched ones: the deviation is that of the upper half.
-DistanceScale ScaleOf(std::vector<float>& sample) {
+DistanceScale ScaleOf(std::span<std::uint16_t> sample) {
   double middle = kMiddle;
   if (!sample.empty()) {
     const auto half = sample.begin() + static_cast<std::ptrdiff_t>(sample.size() / 2);
     std::nth_element(sample.begin(), half, sample.end());
     const auto count = static_cast<double>(sample.size());
-    middle = (count * double{*half} + kMiddleWorth * kMiddle) / (count + kMiddleWorth);
+    middle = (count * static_cast<double>(*half) + kMiddleWorth * kMiddle) / (count + kMiddleWorth);
   }
   double squares = kDeviationWorth * kDeviation * kDeviation;
   double above = kDeviationWorth;
-  for (const float distance : sample) {
-    const double relative = double{distance} / middle - 1;
+  for (const std::uint16_t distance : sample) {
+    const double relative = static_cast<double>(distance) / middle - 1;
     if (relative > 0) {
       squares += relative * relative;
       above += 1;

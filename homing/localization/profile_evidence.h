@@ -7,7 +7,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <vector>
+#include <span>
 
 namespace homing {
 
@@ -25,7 +25,7 @@ struct DistanceScale {
 
 // Of the distances to many steps of the journeys, most of them of other places. Reorders `sample`.
 // A short one says little: then what is usual counts more.
-DistanceScale ScaleOf(std::vector<float>& sample);
+DistanceScale ScaleOf(std::span<std::uint16_t> sample);
 
 // The ratio of a distance so many deviations from the middle of the unmatched ones. Positive.
 class ProfileRatio {

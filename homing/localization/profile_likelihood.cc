@@ -10,8 +10,10 @@ namespace {
 // What a side says on a foreign route, logarithm: the best of many steps looks good.
 constexpr double kFirstForeignEvidence = 0.18;
 constexpr double kForeignEvidence = 0.33;
-// Most distances that are looked at for that.
-constexpr std::size_t kMostSamples = 1024;
+// Stored profiles that tell how far away those of other places are; at most twice as many.
+constexpr std::int64_t kSamples = 256;
+// A less probable offset is tried only now and then, once the place is known.
+constexpr double kLeastOffset = 0.02;
 // Deviation of the offset from the outbound path, and the probability a step of another one.
 constexpr double kOffsetDeviation = 0.15;
 constexpr double kOffsetChange = 0.01;
@@ -39,99 +41,154 @@ bool HasProfiles(const JourneyRef& journey, std::size_t side) {
 
 ProfileLikelihood::ProfileLikelihood() : offsets_(OffsetPrior()) {
   for (std::size_t view = 0; view < kViews; ++view) {
-    covered_[view] = CoveredCells(1 + kPathOffsets[view]);
+    covered_[view] = CoveredCells(MagnificationOf(view));
   }
 }
 
 bool ProfileLikelihood::CanCompare(std::span<const JourneyRef> journeys, const SeenProfiles& seen) {
   return std::ranges::any_of(journeys, [&seen](const JourneyRef& journey) {
-    return (!seen[0].empty() && HasProfiles(journey, 0)) ||
-           (!seen[1].empty() && HasProfiles(journey, 1));
+    return (seen[0] && HasProfiles(journey, 0)) || (seen[1] && HasProfiles(journey, 1));
   });
 }
 
 void ProfileLikelihood::Compute(std::span<const JourneyRef> journeys, const SeenProfiles& seen,
-                                std::span<const std::vector<double>> predicted) {
+                                std::span<const StepMass> predicted) {
+  Choose(journeys, predicted);
   for (std::size_t side = 0; side < seen.size(); ++side) {
     compared_[side] =
-        !seen[side].empty() && std::ranges::any_of(journeys, [side](const JourneyRef& journey) {
+        seen[side] && std::ranges::any_of(journeys, [side](const JourneyRef& journey) {
           return HasProfiles(journey, side);
         });
     if (compared_[side]) {
-      Measure(journeys, side, seen[side]);
+      Measure(journeys, Side{static_cast<int>(side)}, *seen[side], predicted);
     }
   }
   Weigh(predicted);
-  off_route_ = (first_ ? kFirstForeignEvidence : kForeignEvidence) *
-               ((compared_[0] ? 1 : 0) + (compared_[1] ? 1 : 0));
-  first_ = false;
 }
 
-void ProfileLikelihood::Measure(std::span<const JourneyRef> journeys, std::size_t side,
-                                const ProfileViews& seen) {
-  for (std::size_t view = 0; view < kViews; ++view) {
-    Distances& distances = distances_[side][view];
+// All offsets where any step is in question, else the probable ones and one more in turn.
+void ProfileLikelihood::Choose(std::span<const JourneyRef> journeys,
+                               std::span<const StepMass> predicted) {
+  bool all = true;
+  for (std::size_t i = 0; i < journeys.size(); ++i) {
+    all = all && std::ssize(predicted[i].mass) == journeys[i].map->step_count();
+  }
+  const auto in_turn = static_cast<std::size_t>(instants_) % kViews;
+  for (std::size_t offset = 0; offset < kViews; ++offset) {
+    chosen_[offset] = all || offsets_[offset] >= kLeastOffset || offset == in_turn;
+  }
+}
+
+void ProfileLikelihood::TakeSample(std::span<const JourneyRef> journeys, Side side) {
+  std::int64_t all = 0;
+  for (const JourneyRef& journey : journeys) {
+    all += std::ssize(journey.map->profiles(side));
+  }
+  const std::int64_t stride = std::max<std::int64_t>(1, all / kSamples);
+  sample_.clear();
+  std::int64_t next = 0;
+  for (const JourneyRef& journey : journeys) {
+    const auto stored = journey.map->profiles(side);
+    for (; next < std::ssize(stored); next += stride) {
+      sample_.push_back(stored[static_cast<std::size_t>(next)]);
+    }
+    next -= std::ssize(stored);
+  }
+}
+
+void ProfileLikelihood::Measure(std::span<const JourneyRef> journeys, Side side,
+                                const ProfileMaker& seen, std::span<const StepMass> predicted) {
+  const auto at = static_cast<std::size_t>(side);
+  TakeSample(journeys, side);
+  sample_distances_.resize(sample_.size());
+  for (std::size_t offset = 0; offset < kViews; ++offset) {
+    if (!chosen_[offset]) continue;
+    const std::size_t view = ViewOf(at, offset);
+    const FlowProfile profile = seen.Make(MagnificationOf(view));
+    ProfileDistances(profile, sample_, covered_[view], sample_distances_);
+    scales_[at][view] = ScaleOf(sample_distances_);
+    Distances& distances = distances_[at][view];
     distances.resize(journeys.size());
     for (std::size_t i = 0; i < journeys.size(); ++i) {
-      const auto stored = journeys[i].map->profiles(Side{static_cast<int>(side)});
+      auto stored = journeys[i].map->profiles(side);
+      if (!stored.empty()) {
+        stored =
+            stored.subspan(static_cast<std::size_t>(predicted[i].first), predicted[i].mass.size());
+      }
       distances[i].resize(stored.size());
-      ProfileDistances(seen[view], stored, covered_[view], distances[i]);
+      ProfileDistances(profile, stored, covered_[view], distances[i]);
     }
-    scales_[side][view] = ScaleOfAll(distances);
   }
-}
-
-DistanceScale ProfileLikelihood::ScaleOfAll(const Distances& distances) {
-  std::size_t all = 0;
-  for (const auto& of_journey : distances) {
-    all += of_journey.size();
-  }
-  const std::size_t stride = all / kMostSamples + 1;
-  sample_.clear();
-  std::size_t skip = 0;
-  for (const auto& of_journey : distances) {
-    for (; skip < of_journey.size(); skip += stride) {
-      sample_.push_back(of_journey[skip]);
-    }
-    skip -= of_journey.size();
-  }
-  return ScaleOf(sample_);
 }
 
 void ProfileLikelihood::Multiply(std::size_t side, std::size_t view, std::size_t journey,
                                  std::vector<float>& factors) const {
   const std::vector<std::uint16_t>& distances = distances_[side][view][journey];
   const DistanceScale scale = scales_[side][view];
-  const ProfileRatio& ratio = first_ ? ProfileRatio::First() : ProfileRatio::Further();
+  const ProfileRatio& ratio = instants_ == 0 ? ProfileRatio::First() : ProfileRatio::Further();
   for (std::size_t step = 0; step < distances.size(); ++step) {
     factors[step] *= ratio(scale.Deviations(distances[step]));
   }
 }
 
-// Each step's ratio is the mean over the offsets; an offset under which the believed steps fit
-// gains.
-void ProfileLikelihood::Weigh(std::span<const std::vector<double>> predicted) {
+// Each step's ratio is the mean over the offsets.
+void ProfileLikelihood::Weigh(std::span<const StepMass> predicted) {
   likelihoods_.resize(predicted.size());
+  double chosen = 0;
+  double mass = 0;
   for (std::size_t i = 0; i < predicted.size(); ++i) {
-    likelihoods_[i].assign(predicted[i].size(), 0);
+    likelihoods_[i].assign(predicted[i].mass.size(), 0);
+    mass += predicted[i].Sum();
   }
-  std::array<double, kViews> fit{};
   for (std::size_t offset = 0; offset < kViews; ++offset) {
+    chosen += chosen_[offset] ? offsets_[offset] : 0;
+  }
+  fits_ = {};
+  for (std::size_t offset = 0; offset < kViews; ++offset) {
+    if (!chosen_[offset]) continue;
+    const auto weight = static_cast<float>(offsets_[offset] / chosen);
     for (std::size_t i = 0; i < predicted.size(); ++i) {
-      factors_.assign(predicted[i].size(), 1);
+      factors_.assign(predicted[i].mass.size(), 1);
       for (std::size_t side = 0; side < compared_.size(); ++side) {
         if (compared_[side]) Multiply(side, ViewOf(side, offset), i, factors_);
       }
-      const auto weight = static_cast<float>(offsets_[offset]);
+      float fit = 0;
       for (std::size_t step = 0; step < factors_.size(); ++step) {
         likelihoods_[i][step] += weight * factors_[step];
-        fit[offset] += predicted[i][step] * double{factors_[step]};
+        fit += predicted[i].mass[step] * factors_[step];
       }
+      fits_[offset] += double{fit} / mass;
     }
   }
+}
+
+double ProfileLikelihood::MeanFit() const {
+  double fit = 0;
+  double weight = 0;
+  for (std::size_t offset = 0; offset < kViews; ++offset) {
+    if (chosen_[offset]) {
+      fit += offsets_[offset] * fits_[offset];
+      weight += offsets_[offset];
+    }
+  }
+  return fit / weight;
+}
+
+double ProfileLikelihood::LogFit() const {
+  return std::log(std::max(MeanFit(), 1e-30)) / (compared_[0] && compared_[1] ? 2 : 1);
+}
+
+double ProfileLikelihood::OffRoute() const {
+  return (instants_ == 0 ? kFirstForeignEvidence : kForeignEvidence) *
+         ((compared_[0] ? 1 : 0) + (compared_[1] ? 1 : 0));
+}
+
+// An offset under which the believed steps fit gains.
+void ProfileLikelihood::Learn() {
+  const double mean = MeanFit();
   double sum = 0;
   for (std::size_t offset = 0; offset < kViews; ++offset) {
-    offsets_[offset] *= fit[offset];
+    if (chosen_[offset] && mean > 0) offsets_[offset] *= fits_[offset] / mean;
     sum += offsets_[offset];
   }
   for (std::size_t offset = 0; offset < kViews; ++offset) {
@@ -139,6 +196,7 @@ void ProfileLikelihood::Weigh(std::span<const std::vector<double>> predicted) {
                                      kOffsetChange * OffsetPrior()[offset]
                                : OffsetPrior()[offset];
   }
+  ++instants_;
 }
 
 }  // namespace homing

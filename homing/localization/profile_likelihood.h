@@ -13,6 +13,7 @@
 #include "homing/localization/profile_distance.h"
 #include "homing/localization/profile_evidence.h"
 #include "homing/localization/profile_views.h"
+#include "homing/localization/route_belief.h"
 
 namespace homing {
 
@@ -24,39 +25,50 @@ class ProfileLikelihood {
   // Some journey has profiles of a side that is seen.
   static bool CanCompare(std::span<const JourneyRef> journeys, const SeenProfiles& seen);
 
-  // `predicted`: by journey, the mass of each step before this instant. REQUIRES: as many steps as
-  // the journeys have; CanCompare.
+  // `predicted`: by journey, the mass of its steps, or of those of its focus, before this instant.
+  // REQUIRES: CanCompare. Computing again, for other steps, is no further observation.
   void Compute(std::span<const JourneyRef> journeys, const SeenProfiles& seen,
-               std::span<const std::vector<double>> predicted);
+               std::span<const StepMass> predicted);
+  // Ends the instant: takes up what it says of the offset.
+  void Learn();
 
-  // By step. Sides without profiles are neutral: 1.
-  const std::vector<float>& of(std::size_t journey) const { return likelihoods_[journey]; }
+  // By predicted step. Sides without profiles are neutral: 1.
+  std::span<const float> of(std::size_t journey) const { return likelihoods_[journey]; }
+  // Mean over the predicted mass, logarithm, for one side.
+  double LogFit() const;
   // The value of being off the route, logarithm.
-  double OffRoute() const { return off_route_; }
+  double OffRoute() const;
 
  private:
   static constexpr std::size_t kViews = kPathOffsets.size();
-  // Of one side and view, by journey and step; empty where the journey has no profiles.
+  // Of one side and view, by journey and predicted step; empty where the journey has no profiles.
   using Distances = std::vector<std::vector<std::uint16_t>>;
 
-  void Measure(std::span<const JourneyRef> journeys, std::size_t side, const ProfileViews& seen);
-  DistanceScale ScaleOfAll(const Distances& distances);
+  void Choose(std::span<const JourneyRef> journeys, std::span<const StepMass> predicted);
+  void TakeSample(std::span<const JourneyRef> journeys, Side side);
+  void Measure(std::span<const JourneyRef> journeys, Side side, const ProfileMaker& seen,
+               std::span<const StepMass> predicted);
   // Multiplies the factors of one side's view into `factors`.
   void Multiply(std::size_t side, std::size_t view, std::size_t journey,
                 std::vector<float>& factors) const;
-  void Weigh(std::span<const std::vector<double>> predicted);
+  void Weigh(std::span<const StepMass> predicted);
+  double MeanFit() const;
 
   std::array<CellMask, kViews> covered_;
   std::array<std::array<Distances, kViews>, 2> distances_;
   std::array<std::array<DistanceScale, kViews>, 2> scales_;
   std::array<bool, 2> compared_{};
-  // Nothing has been compared before this instant.
-  bool first_ = true;
-  double off_route_ = 0;
+  // Offsets that are tried at this instant.
+  std::array<bool, kViews> chosen_{};
+  // Instants compared before this one.
+  std::int64_t instants_ = 0;
   // Probability of each offset from the outbound path.
   std::array<double, kViews> offsets_{};
+  // How well the predicted steps fit under each.
+  std::array<double, kViews> fits_{};
+  std::vector<FlowProfile> sample_;
+  std::vector<std::uint16_t> sample_distances_;
   std::vector<float> factors_;
-  std::vector<float> sample_;
   std::vector<std::vector<float>> likelihoods_;
 };
 

@@ -1,4 +1,4 @@
-// What one camera sees now, as the outbound robot would have seen it from other distances: a robot
+// What the cameras see now, as the outbound robot would have seen it from other distances: a robot
 // that drives further left or right sees one side of the route larger and the other smaller.
 // Source: own design.
 #ifndef HOMING_LOCALIZATION_PROFILE_VIEWS_H_
@@ -6,7 +6,7 @@
 
 #include <array>
 #include <cstddef>
-#include <vector>
+#include <optional>
 
 #include "homing/landmark/flow_profile.h"
 
@@ -15,19 +15,17 @@ namespace homing {
 // Offsets from the outbound path, to the left of the route; in distances of what is seen there.
 inline constexpr std::array<double, 7> kPathOffsets = {-0.35, -0.23, -0.11, 0, 0.11, 0.23, 0.35};
 
-// One a path offset, magnified by 1 + kPathOffsets[i]; or none.
-using ProfileViews = std::vector<FlowProfile>;
+// How much larger each view is than what the camera sees.
+constexpr double MagnificationOf(std::size_t view) { return 1 + kPathOffsets[view]; }
 
-// Indexed by side of the ROUTE; empty where no camera looks.
-using SeenProfiles = std::array<ProfileViews, 2>;
-
-// Index of the view of `side` for the path offset of index `offset`: nearer on one side is further
-// away on the other.
+// The view of `side` of the route for the path offset of index `offset`: nearer on one side is
+// further away on the other.
 constexpr std::size_t ViewOf(std::size_t side, std::size_t offset) {
   return side == 0 ? kPathOffsets.size() - 1 - offset : offset;
 }
 
-ProfileViews MakeProfileViews(const FlowField& field);
+// Indexed by side of the ROUTE; none where no camera looks.
+using SeenProfiles = std::array<std::optional<ProfileMaker>, 2>;
 
 }  // namespace homing
 

@@ -5,6 +5,8 @@
 #include <iterator>
 #include <numeric>
 
+#include "homing/localization/lane_loops.h"
+
 namespace homing {
 namespace {
 
@@ -21,6 +23,11 @@ constexpr double kSpeedDeviation = 0.5;
 constexpr double kTurnMotion = 0.05;
 // Less is nothing: keeps denormal numbers out.
 constexpr float kLeastMass = 1e-30F;
+// No motion goes further than this, steps.
+constexpr std::int64_t kFurthest = 4;
+// Share of what would run off an end of the journey that is held there: speeds are not known so
+// well that a robot at the end could not seem to be beyond it.
+constexpr float kHeldAtEnds = 0.5F;
 
 // Probabilities of moving by `first`, first + 1, ... steps.
 struct Displacement {
@@ -40,31 +47,14 @@ Displacement DisplacementOf(double speed) {
                             static_cast<float>(part * q)}};
 }
 
-// Adds `from`, moved by `by` steps, to `to`; what runs off an end is gone.
-void AddMoved(const std::vector<float>& from, std::int64_t by, float probability,
-              std::vector<float>& to) {
-  const std::int64_t n = std::ssize(from);
-  const std::int64_t begin = std::clamp<std::int64_t>(-by, 0, n);
-  const std::int64_t end = std::clamp<std::int64_t>(n - by, 0, n);
-  const float* source = from.data() + begin;
-  float* target = to.data() + begin + by;
-  for (std::int64_t s = 0; s < end - begin; ++s) {
-    target[s] += probability * source[s];
-  }
-}
+constexpr Displacement kTurned{
+    .first = -1,
+    .probabilities = {static_cast<float>(kTurnMotion), static_cast<float>(1 - 2 * kTurnMotion),
+                      static_cast<float>(kTurnMotion), 0}};
 
-void AddMoved(const std::vector<float>& from, const Displacement& displacement, int sign,
-              std::vector<float>& to) {
-  for (std::size_t i = 0; i < displacement.probabilities.size(); ++i) {
-    if (displacement.probabilities[i] > 0) {
-      AddMoved(from, sign * (displacement.first + static_cast<int>(i)),
-               displacement.probabilities[i], to);
-    }
-  }
-}
-
-// Share of a lane in `mass`: either direction alike, speeds log-normal about the outbound one.
-float PriorOf(std::size_t lane, double mass) {
+// Share of a lane in the mass of a step: either direction alike, speeds log-normal about the
+// outbound one.
+double PriorOf(std::size_t lane) {
   static const auto weights = [] {
     std::array<double, kSpeedCount> all{};
     for (std::size_t i = 0; i < kSpeedCount; ++i) {
@@ -76,102 +66,209 @@ float PriorOf(std::size_t lane, double mass) {
     }
     return all;
   }();
-  return static_cast<float>(mass * weights[lane % kSpeedCount]);
+  return weights[lane % kSpeedCount];
 }
 
 }  // namespace
 
+// How lanes change in one step.
+struct RouteBelief::Motion {
+  LaneMix mix;
+  // By speed.
+  std::array<Displacement, kSpeedCount> displacements;
+};
+
+double StepMass::Sum() const { return std::accumulate(mass.begin(), mass.end(), 0.0); }
+
 void RouteBelief::Grow(std::int64_t step_count, double mass) {
+  const bool focused = IsFocused();
   step_count_ = step_count;
+  if (focused) {
+    return;
+  }
   for (std::size_t lane = 0; lane < kLanes; ++lane) {
-    lanes_[lane].resize(static_cast<std::size_t>(step_count), PriorOf(lane, mass));
+    lanes_[lane].resize(static_cast<std::size_t>(step_count),
+                        static_cast<float>(mass * PriorOf(lane) / scale_));
   }
 }
 
 void RouteBelief::AddToEach(double mass) {
+  background_ += mass / scale_;
   for (std::size_t lane = 0; lane < kLanes; ++lane) {
-    const float share = PriorOf(lane, mass);
+    const auto share = static_cast<float>(mass * PriorOf(lane) / scale_);
     for (float& value : lanes_[lane]) {
       value += share;
     }
   }
 }
 
-void RouteBelief::MixInto(std::size_t lane, Lane& mixed) const {
+float RouteBelief::Beyond(std::size_t lane, std::int64_t step) const {
+  return step < 0 || step >= step_count_ ? 0 : static_cast<float>(background_ * PriorOf(lane));
+}
+
+void RouteBelief::FillMixed(std::size_t lane, const Motion& motion, std::int64_t begin,
+                            std::int64_t end) {
   const std::size_t speed = lane % kSpeedCount;
-  const bool has_slower = speed > 0;
-  const bool has_faster = speed + 1 < kSpeedCount;
-  const Lane& same = lanes_[lane];
-  const Lane& slower = lanes_[has_slower ? lane - 1 : lane];
-  const Lane& faster = lanes_[has_faster ? lane + 1 : lane];
-  const Lane& back = lanes_[(lane + kSpeedCount) % kLanes];
-  const float stay = 1 - 2 * kSpeedChange - kTurnBack;
-  mixed.resize(same.size());
-  for (std::size_t s = 0; s < same.size(); ++s) {
-    mixed[s] = stay * same[s] + kSpeedChange * (slower[s] + faster[s]) + kTurnBack * back[s];
+  const std::int64_t start = begin - kFurthest;
+  mixed_.resize(static_cast<std::size_t>(end - begin + 2 * kFurthest));
+  const std::int64_t held = first_ - start;
+  for (std::int64_t i = 0; i < held; ++i) {
+    mixed_[static_cast<std::size_t>(i)] = Beyond(lane, start + i);
+  }
+  MixLanes({.same = lanes_[lane].data(),
+            .slower = lanes_[speed > 0 ? lane - 1 : lane].data(),
+            .faster = lanes_[speed + 1 < kSpeedCount ? lane + 1 : lane].data(),
+            .back = lanes_[(lane + kSpeedCount) % kLanes].data()},
+           motion.mix,
+           std::span(mixed_).subspan(static_cast<std::size_t>(held), lanes_[lane].size()));
+  for (std::int64_t i = held + focus_size(); i < std::ssize(mixed_); ++i) {
+    mixed_[static_cast<std::size_t>(i)] = Beyond(lane, start + i);
   }
 }
 
-void RouteBelief::Move() {
-  for (std::size_t lane = 0; lane < kLanes && step_count_ > 0; ++lane) {
-    MixInto(lane, mixed_);
-    moved_[lane].assign(mixed_.size(), 0);
-    AddMoved(mixed_, DisplacementOf(kSpeeds[lane % kSpeedCount]), lane < kSpeedCount ? -1 : 1,
-             moved_[lane]);
+void RouteBelief::Carry(const Motion& motion, double restart) {
+  if (focus_size() == 0) {
+    AddToEach(restart);
+    return;
+  }
+  const std::int64_t begin = std::max<std::int64_t>(0, first_ - kFurthest);
+  const std::int64_t end = std::min(step_count_, first_ + focus_size() + kFurthest);
+  for (std::size_t lane = 0; lane < kLanes; ++lane) {
+    FillMixed(lane, motion, begin, end);
+    const Displacement& displacement = motion.displacements[lane % kSpeedCount];
+    std::array<float, 4> taps = displacement.probabilities;
+    for (float& tap : taps) {
+      tap *= static_cast<float>(scale_);
+    }
+    // What comes to a step: from further away when moving towards home, from nearer to it
+    // otherwise.
+    std::int64_t from = kFurthest + displacement.first;
+    if (lane >= kSpeedCount) {
+      std::ranges::reverse(taps);
+      from = kFurthest - displacement.first - 3;
+    }
+    moved_[lane].resize(static_cast<std::size_t>(end - begin));
+    MoveLane(std::span(mixed_).subspan(static_cast<std::size_t>(from)), taps,
+             static_cast<float>(restart * PriorOf(lane)), moved_[lane]);
+    HoldAtEnds(lane, taps, from, begin, end);
   }
   lanes_.swap(moved_);
+  first_ = begin;
+  background_ = background_ * scale_ + restart;
+  scale_ = 1;
 }
 
-void RouteBelief::Turn() {
-  const Displacement displacement{
-      .first = -1,
-      .probabilities = {static_cast<float>(kTurnMotion), static_cast<float>(1 - 2 * kTurnMotion),
-                        static_cast<float>(kTurnMotion), 0}};
-  for (std::size_t lane = 0; lane < kLanes && step_count_ > 0; ++lane) {
-    moved_[lane].assign(lanes_[lane].size(), 0);
-    AddMoved(lanes_[lane], displacement, 1, moved_[lane]);
-  }
-  lanes_.swap(moved_);
-}
-
-void RouteBelief::Weigh(const std::vector<float>& factors) {
-  for (Lane& lane : lanes_) {
-    for (std::size_t s = 0; s < lane.size(); ++s) {
-      const float weighed = lane[s] * factors[s];
-      lane[s] = weighed < kLeastMass ? 0 : weighed;
+// Steps beyond the ends would have received their mass from mixed_ as MoveLane gives the others
+// theirs.
+void RouteBelief::HoldAtEnds(std::size_t lane, const std::array<float, 4>& taps, std::int64_t from,
+                             std::int64_t begin, std::int64_t end) {
+  const auto beyond = [&](std::int64_t step) {
+    float mass = 0;
+    for (std::int64_t i = 0; i < std::ssize(taps); ++i) {
+      const std::int64_t source = step - begin + from + i;
+      if (source >= 0 && source < std::ssize(mixed_)) {
+        mass += taps[static_cast<std::size_t>(i)] * mixed_[static_cast<std::size_t>(source)];
+      }
     }
+    return kHeldAtEnds * mass;
+  };
+  for (std::int64_t away = 1; away <= kFurthest; ++away) {
+    if (begin == 0) moved_[lane].front() += beyond(-away);
+    if (end == step_count_) moved_[lane].back() += beyond(step_count_ - 1 + away);
   }
 }
 
-void RouteBelief::Scale(double factor) {
-  const auto by = static_cast<float>(factor);
+void RouteBelief::Move(double restart) {
+  static const Motion motion = [] {
+    Motion all{.mix = {.stay = 1 - 2 * kSpeedChange - kTurnBack,
+                       .from_beside = kSpeedChange,
+                       .from_back = kTurnBack},
+               .displacements = {}};
+    std::ranges::transform(kSpeeds, all.displacements.begin(), DisplacementOf);
+    return all;
+  }();
+  Carry(motion, restart);
+}
+
+void RouteBelief::Turn(double restart) {
+  static const Motion motion = [] {
+    Motion all;
+    all.displacements.fill(kTurned);
+    return all;
+  }();
+  Carry(motion, restart);
+}
+
+StepMass RouteBelief::Weigh(std::span<const float> factors) {
+  StepMass left{first_, std::vector<float>(factors.size())};
   for (Lane& lane : lanes_) {
-    for (float& value : lane) {
-      value *= by;
-    }
+    WeighLane(factors, static_cast<float>(scale_), kLeastMass, lane, left.mass);
   }
+  background_ *= scale_;
+  scale_ = 1;
+  return left;
 }
 
-std::vector<double> RouteBelief::StepMass() const {
-  std::vector<double> mass(static_cast<std::size_t>(step_count_));
+void RouteBelief::Scale(double factor) { scale_ *= factor; }
+
+void RouteBelief::Focus(double least, const StepMass& mass) {
+  const auto enough = [least](float value) { return double{value} >= least; };
+  const auto begin = std::ranges::find_if(mass.mass, enough);
+  const auto end =
+      std::find_if(mass.mass.rbegin(), std::make_reverse_iterator(begin), enough).base();
+  const auto skipped = begin - mass.mass.begin();
+  const auto kept = end - begin;
+  if (!IsFocused() && kept < std::ssize(mass.mass)) {
+    const double beyond =
+        std::accumulate(mass.mass.begin(), begin, 0.0) + std::accumulate(end, mass.mass.end(), 0.0);
+    background_ = beyond / (scale_ * static_cast<double>(step_count_ - kept));
+  }
+  for (Lane& lane : lanes_) {
+    lane = Lane(lane.begin() + skipped, lane.begin() + skipped + kept);
+  }
+  for (Lane& lane : moved_) {
+    lane = Lane();
+  }
+  first_ += skipped;
+}
+
+void RouteBelief::Unfocus() {
+  if (!IsFocused()) {
+    return;
+  }
+  for (std::size_t lane = 0; lane < kLanes; ++lane) {
+    Lane all(static_cast<std::size_t>(step_count_),
+             static_cast<float>(background_ * PriorOf(lane)));
+    std::ranges::copy(lanes_[lane], all.begin() + first_);
+    lanes_[lane] = std::move(all);
+  }
+  first_ = 0;
+}
+
+StepMass RouteBelief::Masses() const {
+  StepMass masses{first_, std::vector<float>(lanes_[0].size())};
   for (const Lane& lane : lanes_) {
-    for (std::size_t s = 0; s < lane.size(); ++s) {
-      mass[s] += double{lane[s]};
-    }
+    AddLane(lane, masses.mass);
   }
-  return mass;
+  for (float& mass : masses.mass) {
+    mass *= static_cast<float>(scale_);
+  }
+  return masses;
 }
 
-double RouteBelief::Mass() const {
-  const std::vector<double> mass = StepMass();
-  return std::accumulate(mass.begin(), mass.end(), 0.0);
+double RouteBelief::MassBeyond() const {
+  return background_ * scale_ * static_cast<double>(step_count_ - focus_size());
 }
+
+double RouteBelief::Mass() const { return Masses().Sum() + MassBeyond(); }
 
 std::array<double, 2> RouteBelief::DirectionMass(std::int64_t first, std::int64_t last) const {
   std::array<double, 2> mass{};
-  for (std::size_t lane = 0; lane < kLanes && step_count_ > 0; ++lane) {
-    for (std::int64_t s = first; s <= last; ++s) {
-      mass[lane / kSpeedCount] += double{lanes_[lane][static_cast<std::size_t>(s)]};
+  const std::int64_t begin = std::max<std::int64_t>(0, first - first_);
+  const std::int64_t end = std::min(focus_size(), last + 1 - first_);
+  for (std::size_t lane = 0; lane < kLanes; ++lane) {
+    for (std::int64_t s = begin; s < end; ++s) {
+      mass[lane / kSpeedCount] += scale_ * double{lanes_[lane][static_cast<std::size_t>(s)]};
     }
   }
   return mass;

@@ -6,11 +6,21 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace homing {
 
-// Masses are not normalised. Not thread-safe.
+// Mass of consecutive steps, over all directions and speeds.
+struct StepMass {
+  std::int64_t first = 0;
+  std::vector<float> mass;
+
+  double Sum() const;
+};
+
+// Masses are not normalised. Once the robot's place is known, only the steps about it are held one
+// by one (the focus); all others have the same small mass. Not thread-safe.
 class RouteBelief {
  public:
   // Steps of the journey a step of the way home: powers of the fourth root of 2.
@@ -18,22 +28,36 @@ class RouteBelief {
                                                      1.18921, 1.41421, 1.68179, 2,       2.82843};
 
   std::int64_t step_count() const { return step_count_; }
-  // Takes up steps at the end, each with `mass` spread over directions and speeds as the prior is.
+  // The focus: from first_step() on, focus_size() steps. All of them at first.
+  std::int64_t first_step() const { return first_; }
+  std::int64_t focus_size() const { return static_cast<std::int64_t>(lanes_[0].size()); }
+  bool IsFocused() const { return focus_size() < step_count_; }
+
+  // Takes up steps at the end, each with `mass` spread over directions and speeds as the prior is;
+  // with that of all others where these are not held one by one.
   void Grow(std::int64_t step_count, double mass);
   // Adds `mass` to each step, spread in the same way.
   void AddToEach(double mass);
 
-  // One step of motion. What runs off an end of the journey is gone.
-  void Move();
+  // One step of motion; each step then gains `restart`. What runs off an end of the journey is
+  // gone.
+  void Move(double restart = 0);
   // A turn on the spot: hardly any motion.
-  void Turn();
-  // Times one factor a step. REQUIRES: as many as steps.
-  void Weigh(const std::vector<float>& factors);
+  void Turn(double restart = 0);
+  // Times one factor a step of the focus. REQUIRES: focus_size() of them. Returns what is left.
+  StepMass Weigh(std::span<const float> factors);
   void Scale(double factor);
 
+  // Holds only steps of at least `least` mass, and those between them, one by one.
+  void Focus(double least, const StepMass& mass);
+  // Holds all steps one by one.
+  void Unfocus();
+
   double Mass() const;
-  // Mass by step, over all directions and speeds.
-  std::vector<double> StepMass() const;
+  // Of the focus.
+  StepMass Masses() const;
+  // Of all steps beyond the focus.
+  double MassBeyond() const;
   // Mass from `first` to `last` that moves towards home (0), away from it (1).
   std::array<double, 2> DirectionMass(std::int64_t first, std::int64_t last) const;
 
@@ -41,11 +65,24 @@ class RouteBelief {
   // Towards home, away from home.
   static constexpr std::size_t kLanes = 2 * kSpeeds.size();
   using Lane = std::vector<float>;
+  struct Motion;
 
-  void MixInto(std::size_t lane, Lane& mixed) const;
+  void Carry(const Motion& motion, double restart);
+  // Copies a lane, mixed with its neighbours, with what lies on either side of the steps from
+  // `begin` on, into mixed_.
+  void FillMixed(std::size_t lane, const Motion& motion, std::int64_t begin, std::int64_t end);
+  float Beyond(std::size_t lane, std::int64_t step) const;
+  void HoldAtEnds(std::size_t lane, const std::array<float, 4>& taps, std::int64_t from,
+                  std::int64_t begin, std::int64_t end);
 
   std::int64_t step_count_ = 0;
+  std::int64_t first_ = 0;
+  // By step from first_ on.
   std::array<Lane, kLanes> lanes_;
+  // Of each step beyond.
+  double background_ = 0;
+  // All masses are still to be multiplied by this.
+  double scale_ = 1;
   std::array<Lane, kLanes> moved_;
   Lane mixed_;
 };

@@ -3,7 +3,8 @@
 #define HOMING_LOCALIZATION_STEP_WINDOW_H_
 
 #include <cstdint>
-#include <vector>
+
+#include "homing/localization/route_belief.h"
 
 namespace homing {
 
@@ -17,8 +18,9 @@ struct StepWindow {
 };
 
 // The window of the greatest mass, moved to the mean of the mass within: where that is narrow, many
-// windows hold all of it. Nothing for no steps. `half` >= 0.
-StepWindow BestWindow(const std::vector<double>& mass_by_step, std::int64_t half);
+// windows hold all of it. Nothing for no steps. `half` >= 0; `step_count`: of the journey, which
+// holds no mass beside this.
+StepWindow BestWindow(const StepMass& mass, std::int64_t half, std::int64_t step_count);
 
 }  // namespace homing
 

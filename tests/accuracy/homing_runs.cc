@@ -5,52 +5,21 @@
 #include <utility>
 
 #include "absl/strings/str_cat.h"
-#include "client/homing_client.h"
-#include "client/journey_client.h"
-#include "client/recording_client.h"
 #include "homing/journey/journey_recorder.h"
 #include "homing/landmark/profile_code.h"
 #include "homing/localization/localizer.h"
 #include "proto/wire/enum_conversion.h"
-#include "proto/wire/observation_conversion.h"
+#include "tests/accuracy/server_runs.h"
 
 namespace homing::accuracy {
 namespace {
 
-Observation ObservationOf(const Instant& instant, std::size_t sequence) {
-  Observation observation;
-  observation.sequence = static_cast<std::int64_t>(sequence);
-  for (std::size_t side = 0; side < 2; ++side) {
-    if (instant.flow.fields[side]) observation.views[side] = *instant.flow.fields[side];
-  }
-  return observation;
+Observations ObservationsOf(const Drive& drive) {
+  return {drive.size(), [&drive](std::size_t i) { return drive[i].flow; }};
 }
 
-// The instants of a drive, as a client sends them.
-class InstantStream final : public client::ObservationStream {
- public:
-  explicit InstantStream(std::vector<const Instant*> instants) : instants_(std::move(instants)) {}
-
-  absl::StatusOr<std::optional<v1::Observation>> Next() override {
-    if (next_ >= instants_.size()) return std::optional<v1::Observation>();
-    const std::size_t at = next_++;
-    return std::make_optional(wire::ToProto(ObservationOf(*instants_[at], at)));
-  }
-  bool Seek(std::int64_t sequence) override {
-    next_ = static_cast<std::size_t>(sequence);
-    return true;
-  }
-  void ContinueAt(std::int64_t /*sequence*/) override {}
-
- private:
-  std::vector<const Instant*> instants_;
-  std::size_t next_ = 0;
-};
-
-std::vector<const Instant*> All(const Drive& drive) {
-  std::vector<const Instant*> all;
-  for (const Instant& instant : drive) all.push_back(&instant);
-  return all;
+Observations QueryOf(const Run& run) {
+  return {run.query.size(), [&run](std::size_t i) { return run.query[i]->flow; }};
 }
 
 void Check(const absl::Status& status) {
@@ -64,8 +33,9 @@ double PlaceOf(const Run& run, int map, std::int64_t step) {
 JourneyMap MapOf(const Drive& drive) {
   JourneyRecorder recorder({});
   JourneyMap map;
+  const Observations observations = ObservationsOf(drive);
   for (std::size_t i = 0; i < drive.size(); ++i) {
-    auto step = recorder.Record(ObservationOf(drive[i], i));
+    auto step = recorder.Record(observations.At(i));
     Check(step.status());
     Check(map.Append(**step));
   }
@@ -95,8 +65,9 @@ void LocalizeDirectly(int number, Run& run) {
   std::vector<JourneyRef> journeys;
   for (std::size_t i = 0; i < maps.size(); ++i) journeys.push_back({&names[i], &maps[i]});
   Localizer localizer(OptionsOf(run));
+  const Observations query = QueryOf(run);
   for (std::size_t i = 0; i < run.query.size(); ++i) {
-    const auto result = localizer.Localize(ObservationOf(*run.query[i], i), journeys);
+    const auto result = localizer.Localize(query.At(i), journeys);
     Check(result.status());
     const Position& position = result->position;
     Answer answer{.score = position.probability, .outcome = position.outcome};
@@ -116,25 +87,11 @@ void LocalizeDirectly(int number, Run& run) {
   }
 }
 
-void RecordDrive(const client::Connection* server, const std::string& name, const Drive& drive) {
-  client::JourneyClient journeys(server);
-  const auto parsed = client::ParseJourneyName(name);
-  v1::CreateJourneyRequest request;
-  request.set_parent(parsed->parent);
-  request.set_journey_id(parsed->journey_id);
-  request.set_writer_id("accuracy");
-  Check(journeys.Create(request).status());
-  client::RecordingClient recording(server, {.journey = name, .writer_id = "accuracy"});
-  InstantStream stream(All(drive));
-  Check(recording.Record(&stream, [](const auto&) { return absl::OkStatus(); }).status());
-  Check(journeys.Finish(name, "accuracy").status());
-}
-
-void LocalizeOverServer(const client::Connection* server, int number, Run& run) {
+void LocalizeOverServer(const client::Connection& server, int number, Run& run) {
   std::vector<std::string> names;
   for (std::size_t i = 0; i < run.maps.size(); ++i) {
     names.push_back(NameOf(number, i));
-    RecordDrive(server, names.back(), *run.maps[i]);
+    RecordOnServer(server, names.back(), ObservationsOf(*run.maps[i]));
   }
   const auto index = [&names](const std::string& name) {
     return static_cast<int>(std::ranges::find(names, name) - names.begin());
@@ -146,9 +103,7 @@ void LocalizeOverServer(const client::Connection* server, int number, Run& run) 
   options.config.set_tolerance_steps(run.tolerance_steps);
   options.config.set_threshold(0);
   options.config.set_max_matches(1);
-  InstantStream stream(run.query);
-  client::HomingClient homing(server);
-  Check(homing.Localize(options, &stream, [&](const v1::LocalizeResponse& response) {
+  LocalizeOnServer(server, options, QueryOf(run), [&](const v1::LocalizeResponse& response) {
     Answer answer{.score = response.probability(),
                   .outcome = static_cast<Outcome>(response.outcome())};
     if (response.has_step()) {
@@ -163,10 +118,8 @@ void LocalizeOverServer(const client::Connection* server, int number, Run& run) 
       single.score = response.matches(0).p_t();
     }
     run.single_frame.push_back(single);
-    return absl::OkStatus();
-  }));
-  client::JourneyClient journeys(server);
-  for (const std::string& name : names) Check(journeys.Delete(name));
+  });
+  for (const std::string& name : names) DeleteOnServer(server, name);
 }
 
 }  // namespace
@@ -175,7 +128,7 @@ void LocalizeRun(const client::Connection* server, int number, Run& run) {
   if (server == nullptr) {
     LocalizeDirectly(number, run);
   } else {
-    LocalizeOverServer(server, number, run);
+    LocalizeOverServer(*server, number, run);
   }
 }
 
@@ -184,9 +137,10 @@ double MicrosecondsAnObservation(const Run& run) {
   const std::string name = "robots/r/journeys/m";
   const JourneyRef journey{&name, &map};
   Localizer localizer(OptionsOf(run));
+  const Observations query = QueryOf(run);
   std::vector<double> times;
   for (std::size_t i = 0; i < run.query.size(); ++i) {
-    const Observation observation = ObservationOf(*run.query[i], i);
+    const Observation observation = query.At(i);
     const auto start = std::chrono::steady_clock::now();
     Check(localizer.Localize(observation, {&journey, 1}).status());
     times.push_back(

@@ -5,8 +5,12 @@
 #include <iostream>
 
 #include "absl/strings/str_format.h"
+#include "absl/strings/str_replace.h"
+#include "homing/status_macros.h"
+#include "tests/accuracy/fleet.h"
 #include "tests/accuracy/homing_runs.h"
 #include "tests/accuracy/picture_peers.h"
+#include "tests/accuracy/pictures.h"
 #include "tests/accuracy/report.h"
 #include "tests/accuracy/scores.h"
 #include "tests/accuracy/sequences.h"
@@ -20,7 +24,9 @@ struct Flags {
   std::string cache;
   std::string report;
   std::string details;
+  std::string pictures;
   int seeds = 20;
+  int fleet = 0;
   bool peers = true;
 };
 
@@ -63,18 +69,13 @@ void RunPeers(std::vector<Run>& runs) {
   filter(best_slope, false);
 }
 
-void RunHoming(const Flags& flags, std::vector<Run>& runs) {
-  std::optional<client::Connection> server;
-  if (!flags.server.empty()) {
-    client::ConnectionOptions options;
-    options.address = flags.server;
-    auto opened = client::Connection::Open(options);
-    if (!opened.ok()) Fail(opened.status().ToString());
-    server = *std::move(opened);
-  }
-  InParallel(runs.size(), [&](std::size_t i) {
-    LocalizeRun(server ? &*server : nullptr, static_cast<int>(i), runs[i]);
-  });
+std::optional<client::Connection> Connect(const std::string& address) {
+  if (address.empty()) return std::nullopt;
+  client::ConnectionOptions options;
+  options.address = address;
+  auto opened = client::Connection::Open(options);
+  if (!opened.ok()) Fail(opened.status().ToString());
+  return *std::move(opened);
 }
 
 // Of the first run of each set.
@@ -101,6 +102,49 @@ void WriteDetails(const std::string& path, const std::vector<Run>& runs) {
   }
 }
 
+std::vector<const Run*> Of(const std::vector<Run>& runs, const std::string& set) {
+  std::vector<const Run*> found;
+  for (const Run& run : runs) {
+    if (run.set == set) found.push_back(&run);
+  }
+  return found;
+}
+
+absl::Status DrawComparison(const std::string& folder, const std::string& set,
+                            const std::vector<Run>& runs) {
+  const std::vector<const Run*> found = Of(runs, set);
+  if (found.empty()) return absl::OkStatus();
+  const std::string name = absl::StrReplaceAll(set, {{" ", "_"}});
+  HOMING_RETURN_IF_ERROR(DrawSimilarityMatrix(folder + "/matrix_" + name + ".png", *found[0]));
+  std::vector<NamedCurve> curves;
+  for (const auto& [method, answers] :
+       {std::pair("Homing", &Run::homing), std::pair("pictures, same filter", &Run::pictures),
+        std::pair("SeqSLAM, 10 frames", &Run::seq_slam_10),
+        std::pair("SeqSLAM, 5 frames", &Run::seq_slam_5),
+        std::pair("best P_T alone", &Run::single_frame)}) {
+    curves.push_back({method, PrecisionRecallOf(Judge(found, answers))});
+  }
+  return DrawPrecisionRecall(folder + "/precision_recall_" + name + ".svg", set, curves);
+}
+
+absl::Status DrawPictures(const std::string& folder, const std::vector<Run>& runs) {
+  for (const char* set : {"laps", "laps dim", "street two"}) {
+    HOMING_RETURN_IF_ERROR(DrawComparison(folder, set, runs));
+  }
+  std::vector<NamedCalibration> calibrations;
+  for (const bool real : {true, false}) {
+    std::vector<const Run*> group;
+    for (const Run& run : runs) {
+      if (IsReal(run) == real && !run.set.ends_with("kidnapped")) group.push_back(&run);
+    }
+    if (!group.empty()) {
+      calibrations.push_back({real ? "real sequences" : "simulated routes",
+                              CalibrationOf(Judge(group, &Run::homing))});
+    }
+  }
+  return DrawReliability(folder + "/reliability.svg", calibrations);
+}
+
 int Main(const Flags& flags) {
   Measurements measurements;
   if (!flags.data.empty()) measurements.runs = RealRuns(flags.data);
@@ -110,10 +154,18 @@ int Main(const Flags& flags) {
     }
   }
   std::cerr << measurements.runs.size() << " runs\n";
-  RunHoming(flags, measurements.runs);
+  const std::optional<client::Connection> server = Connect(flags.server);
+  InParallel(measurements.runs.size(), [&](std::size_t i) {
+    LocalizeRun(server ? &*server : nullptr, static_cast<int>(i), measurements.runs[i]);
+  });
+  if (server && flags.fleet > 0) measurements.fleet = RunFleet(*server, {.journeys = flags.fleet});
   if (flags.peers) RunPeers(measurements.runs);
   if (flags.peers) Measure(measurements);
   if (!flags.details.empty()) WriteDetails(flags.details, measurements.runs);
+  if (!flags.pictures.empty()) {
+    const absl::Status drawn = DrawPictures(flags.pictures, measurements.runs);
+    if (!drawn.ok()) Fail(drawn.ToString());
+  }
   const Report report = MakeReport(measurements);
   if (!flags.report.empty()) std::ofstream(flags.report) << report.markdown;
   if (flags.report.empty()) std::cout << report.markdown;
@@ -138,7 +190,9 @@ int main(int argc, char** argv) {
   app.add_option("--cache", flags.cache, "Folder that keeps simulated drives [none]");
   app.add_option("--report", flags.report, "Markdown file [standard output]");
   app.add_option("--details", flags.details, "CSV file of all answers [none]");
+  app.add_option("--pictures", flags.pictures, "Folder for pictures [none]");
   app.add_option("--seeds", flags.seeds, "Simulated worlds a scene");
+  app.add_option("--fleet", flags.fleet, "Journeys of a fleet, through the server [none]");
   app.add_flag("!--no-peers", flags.peers, "Homing alone");
   CLI11_PARSE(app, argc, argv);
   return homing::accuracy::Main(flags);

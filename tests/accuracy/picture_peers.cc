@@ -154,7 +154,7 @@ Answers PictureFilter(const Run& run, const Differences& differences, double slo
     belief.AddToEach(5e-4 / static_cast<double>(places));
     belief.Weigh(factors);
     belief.Scale(1 / std::max(belief.Mass(), 1e-20));
-    const StepWindow window = BestWindow(belief.StepMass(), run.tolerance_steps);
+    const StepWindow window = BestWindow(belief.Masses(), run.tolerance_steps, places);
     answers.push_back({.place = (*run.maps[0])[static_cast<std::size_t>(window.step)].place,
                        .score = window.mass});
   }

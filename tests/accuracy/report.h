@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/accuracy/fleet.h"
 #include "tests/accuracy/run.h"
 
 namespace homing::accuracy {
@@ -26,8 +27,7 @@ struct Measurements {
   // By real set, then one for the simulated ones.
   std::vector<std::pair<std::string, double>> microseconds;
   std::vector<std::pair<std::string, double>> bytes;
-  // More bounds, from elsewhere.
-  std::vector<Bound> others;
+  FleetResult fleet;
 };
 
 struct Report {

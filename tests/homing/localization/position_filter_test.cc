@@ -279,7 +279,6 @@ TEST(PositionFilterTest, SurvivesWithoutRestartWhatNothingExplains) {
   const JourneyMap map = world.Record();
   PositionOptions options;
   options.restart_probability = 0;
-  options.leave_probability = 0;
   options.off_route_prior = 0;
   options.likelihood.outlier_share = 0;
   options.likelihood.temper = 1;

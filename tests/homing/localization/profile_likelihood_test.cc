@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include <cmath>
 #include <random>
 
 namespace homing {
@@ -46,10 +47,11 @@ class ProfileLikelihoodTest : public ::testing::Test {
     }
   }
 
-  const std::vector<float>& See(const FlowField& field, std::size_t side = 0) {
+  // What it says, before it is taken up.
+  std::span<const float> See(const FlowField& field, std::size_t side = 0) {
     SeenProfiles seen;
-    seen[side] = MakeProfileViews(field);
-    likelihood_.Compute({&ref_, 1}, seen, predicted_);
+    seen[side].emplace(field);
+    likelihood_.Compute({&ref_, 1}, seen, {&predicted_, 1});
     return likelihood_.of(0);
   }
 
@@ -57,16 +59,15 @@ class ProfileLikelihoodTest : public ::testing::Test {
   std::string name_ = "robots/a/journeys/b";
   JourneyMap map_;
   JourneyRef ref_{&name_, &map_};
-  std::vector<std::vector<double>> predicted_ =
-      std::vector(1, std::vector<double>(kSteps, 1.0 / kSteps));
+  StepMass predicted_{0, std::vector<float>(kSteps, 1.0F / kSteps)};
   ProfileLikelihood likelihood_;
 };
 
 TEST_F(ProfileLikelihoodTest, TheStepItselfIsTheMostLikely) {
   for (int step = 0; step < kSteps; ++step) {
-    const auto& likelihood = See(fields_[static_cast<std::size_t>(step)]);
+    const auto likelihood = See(fields_[static_cast<std::size_t>(step)]);
     EXPECT_EQ(std::ranges::max_element(likelihood) - likelihood.begin(), step);
-    EXPECT_GT(likelihood[static_cast<std::size_t>(step)], likelihood_.OffRoute());
+    EXPECT_GT(std::log(likelihood[static_cast<std::size_t>(step)]), likelihood_.OffRoute());
   }
 }
 
@@ -78,22 +79,26 @@ TEST_F(ProfileLikelihoodTest, AForeignPlaceSpeaksForBeingOffTheRoute) {
       mean += double{value} / (20 * kSteps);
     }
   }
-  EXPECT_LT(mean, likelihood_.OffRoute());
+  EXPECT_LT(std::log(mean), likelihood_.OffRoute());
 }
 
 TEST_F(ProfileLikelihoodTest, LearnsThatTheRobotIsNearer) {
-  predicted_[0].assign(kSteps, 0);
-  predicted_[0][20] = 1;
+  predicted_.mass.assign(kSteps, 0);
+  predicted_.mass[20] = 1;
+  // A first observation counts for more than any further one.
+  See(fields_[20]);
+  likelihood_.Learn();
   const float at_first = See(Nearer(fields_[20], 1.35F))[20];
   for (int i = 0; i < 10; ++i) {
     See(Nearer(fields_[20], 1.35F));
+    likelihood_.Learn();
   }
   EXPECT_GT(See(Nearer(fields_[20], 1.35F))[20], 1.2F * at_first);
 }
 
 TEST_F(ProfileLikelihoodTest, TheOtherSideSaysNothing) {
   SeenProfiles seen;
-  seen[1] = MakeProfileViews(fields_[3]);
+  seen[1].emplace(fields_[3]);
   EXPECT_FALSE(ProfileLikelihood::CanCompare({&ref_, 1}, seen));
   EXPECT_FALSE(ProfileLikelihood::CanCompare({&ref_, 1}, {}));
   seen[0] = seen[1];

@@ -54,15 +54,15 @@ TEST(RouteBeliefTest, SpeedsMoveByTheirStepsOnAverage) {
     belief.Move();
   }
   // Of what moves away from home at once the speed of the outbound journey or nearly so.
-  const std::vector<double> mass = belief.StepMass();
+  const std::vector<float> mass = belief.Masses().mass;
   double near_one = 0;
   for (std::size_t s = 100 + 60 - 12; s <= 100 + 60 + 12; ++s) {
-    near_one += mass[s];
+    near_one += double{mass[s]};
   }
   EXPECT_GT(near_one, 0.05);
   double beyond = 0;
   for (std::size_t s = 100 + 60 * 3; s < mass.size(); ++s) {
-    beyond += mass[s];
+    beyond += double{mass[s]};
   }
   EXPECT_LT(beyond, 0.01);
 }
@@ -72,41 +72,96 @@ TEST(RouteBeliefTest, GrowthGivesNewStepsTheirMass) {
   belief.Grow(14, 0.25);
   EXPECT_EQ(belief.step_count(), 14);
   EXPECT_NEAR(belief.Mass(), 2, 1e-5);
-  EXPECT_NEAR(belief.StepMass()[12], 0.25, 1e-6);
+  EXPECT_NEAR(belief.Masses().mass[12], 0.25, 1e-6);
+}
+
+TEST(RouteBeliefTest, AFocusHoldsTheSameAsAllSteps) {
+  RouteBelief all = PeakAt(500, 250);
+  all.AddToEach(1e-7);
+  RouteBelief focused = all;
+  focused.Focus(1e-5, focused.Masses());
+  EXPECT_TRUE(focused.IsFocused());
+  EXPECT_EQ(focused.focus_size(), 1);
+  for (int i = 0; i < 20; ++i) {
+    all.Move(1e-8);
+    focused.Move(1e-8);
+  }
+  EXPECT_LT(focused.focus_size(), 200);
+  EXPECT_NEAR(focused.Mass(), all.Mass(), 1e-5);
+  focused.Unfocus();
+  ASSERT_EQ(focused.focus_size(), 500);
+  const StepMass expected = all.Masses();
+  const StepMass found = focused.Masses();
+  // The ends, where mass runs off, apart.
+  for (std::size_t s = 100; s < 400; ++s) {
+    EXPECT_NEAR(found.mass[s], expected.mass[s], 1e-7 + 1e-3 * double{expected.mass[s]}) << s;
+  }
+}
+
+TEST(RouteBeliefTest, AFocusGrowsAtTheEndOfTheJourney) {
+  RouteBelief belief = PeakAt(100, 99);
+  belief.Focus(1e-5, belief.Masses());
+  belief.Grow(120, 0.01);
+  for (int i = 0; i < 10; ++i) {
+    belief.Move();
+  }
+  const auto moved = belief.DirectionMass(105, 119);
+  EXPECT_GT(moved[1], 0.3);
+}
+
+TEST(RouteBeliefTest, WhatIsInNoFocusIsLeftBeyond) {
+  RouteBelief belief;
+  belief.Grow(100, 1e-8);
+  belief.Focus(1e-5, belief.Masses());
+  EXPECT_EQ(belief.focus_size(), 0);
+  belief.Move(1e-9);
+  EXPECT_NEAR(belief.Mass(), 100 * 1.1e-8, 1e-12);
+  EXPECT_TRUE(belief.Masses().mass.empty());
+  belief.Unfocus();
+  EXPECT_NEAR(belief.Mass(), 100 * 1.1e-8, 1e-12);
+}
+
+TEST(StepWindowTest, OfAFocusIsCutAtTheEndsOfTheJourneyOnly) {
+  const StepMass mass{40, {0.25F, 0.5F, 0.25F}};
+  const StepWindow window = BestWindow(mass, 10, 45);
+  EXPECT_EQ(window.step, 41);
+  EXPECT_EQ(window.first, 31);
+  EXPECT_EQ(window.last, 44);
+  EXPECT_NEAR(window.mass, 1, 1e-6);
 }
 
 TEST(StepWindowTest, HoldsTheMostMass) {
-  const std::vector<double> mass{0, 0.2, 0, 0, 0.1, 0.15, 0.1, 0, 0};
-  const StepWindow window = BestWindow(mass, 1);
+  const StepMass mass{0, {0, 0.2F, 0, 0, 0.1F, 0.15F, 0.1F, 0, 0}};
+  const StepWindow window = BestWindow(mass, 1, 9);
   EXPECT_EQ(window.step, 5);
   EXPECT_EQ(window.first, 4);
   EXPECT_EQ(window.last, 6);
-  EXPECT_NEAR(window.mass, 0.35, 1e-12);
+  EXPECT_NEAR(window.mass, 0.35, 1e-6);
 }
 
 TEST(StepWindowTest, LiesAboutTheMiddleOfANarrowMass) {
-  std::vector<double> mass(100);
-  mass[50] = 0.5;
-  mass[52] = 0.5;
-  EXPECT_EQ(BestWindow(mass, 10).step, 51);
+  StepMass mass{0, std::vector<float>(100)};
+  mass.mass[50] = 0.5;
+  mass.mass[52] = 0.5;
+  EXPECT_EQ(BestWindow(mass, 10, 100).step, 51);
 }
 
 TEST(StepWindowTest, IsCutAtTheEnds) {
-  std::vector<double> mass(100);
-  mass[1] = 1;
-  const StepWindow window = BestWindow(mass, 10);
+  StepMass mass{0, std::vector<float>(100)};
+  mass.mass[1] = 1;
+  const StepWindow window = BestWindow(mass, 10, 100);
   EXPECT_EQ(window.step, 1);
   EXPECT_EQ(window.first, 0);
   EXPECT_EQ(window.last, 11);
 }
 
 TEST(StepWindowTest, ToleranceOfZeroIsTheMostProbableStep) {
-  const StepWindow window = BestWindow({0.1, 0.5, 0.4}, 0);
+  const StepWindow window = BestWindow({0, {0.1F, 0.5F, 0.4F}}, 0, 3);
   EXPECT_EQ(window.step, 1);
   EXPECT_EQ(window.mass, 0.5);
 }
 
-TEST(StepWindowTest, NothingHasNoWindow) { EXPECT_LT(BestWindow({}, 10).mass, 0); }
+TEST(StepWindowTest, NothingHasNoWindow) { EXPECT_LT(BestWindow({}, 10, 0).mass, 0); }
 
 }  // namespace
 }  // namespace homing

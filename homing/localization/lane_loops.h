@@ -1,0 +1,41 @@
+// The loops over steps of RouteBelief. Source: own design.
+#ifndef HOMING_LOCALIZATION_LANE_LOOPS_H_
+#define HOMING_LOCALIZATION_LANE_LOOPS_H_
+
+#include <array>
+#include <cstddef>
+#include <span>
+
+namespace homing {
+
+// What a lane keeps of itself and takes from others, a step.
+struct LaneMix {
+  float stay = 1;
+  float from_beside = 0;
+  float from_back = 0;
+};
+
+// out = stay same + from_beside (slower + faster) + from_back back. REQUIRES: all as long as out.
+struct LaneNeighbours {
+  const float* same = nullptr;
+  const float* slower = nullptr;
+  const float* faster = nullptr;
+  const float* back = nullptr;
+};
+void MixLanes(const LaneNeighbours& lanes, const LaneMix& mix, std::span<float> out);
+
+// out[s] = added + sum of taps[i] in[s + i]. REQUIRES: in is three longer than out.
+void MoveLane(std::span<const float> in, const std::array<float, 4>& taps, float added,
+              std::span<float> out);
+
+// Multiplies a lane by the factors and by `scale`, and adds it to `sum`. Values below `least`
+// become 0. REQUIRES: all equally long.
+void WeighLane(std::span<const float> factors, float scale, float least, std::span<float> lane,
+               std::span<float> sum);
+
+// sum += lane. REQUIRES: both equally long.
+void AddLane(std::span<const float> lane, std::span<float> sum);
+
+}  // namespace homing
+
+#endif  // HOMING_LOCALIZATION_LANE_LOOPS_H_

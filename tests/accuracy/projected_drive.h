@@ -1,0 +1,80 @@
+// Drives whose flow is projected from points, not rendered: long routes at little cost.
+#ifndef TESTS_ACCURACY_PROJECTED_DRIVE_H_
+#define TESTS_ACCURACY_PROJECTED_DRIVE_H_
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "homing/flow/observation.h"
+#include "homing/localization/matcher.h"
+
+namespace homing::accuracy {
+
+// Both sides of a street: fronts with corners, posts before them, far things behind. All routes
+// draw their fronts from one pool of eight patterns of corners. Source: own design.
+class ProjectedWorld {
+ public:
+  ProjectedWorld(std::uint64_t seed, double length_m);
+
+  struct Corner {
+    // Along the route; from its middle; above the camera. Metres.
+    float along = 0;
+    float away = 0;
+    float up = 0;
+    // What it stands on: gone or there as one.
+    std::int32_t object = 0;
+  };
+
+  // By side of the route, home first.
+  const std::vector<Corner>& corners(std::size_t side) const { return corners_[side]; }
+
+ private:
+  void AddFront(std::size_t side, double begin, double end, std::uint64_t key);
+  void AddRest(std::size_t side, double length_m, std::uint64_t key);
+
+  std::array<std::vector<Corner>, 2> corners_;
+  std::int32_t objects_ = 0;
+};
+
+struct ProjectedDriveOptions {
+  // Noise, clutter, and what is gone; another drive has another.
+  std::uint64_t seed = 1;
+  double start_m = 0;
+  double end_m = 0;
+  double speed_kmh = 4;
+  double fps = 5;
+  // To the left of the outbound path, metres.
+  double offset_m = 0;
+  Travel travel = Travel::kSame;
+  // Of either end of a vector, pixels.
+  double noise_px = 0.2;
+  // Share of corners that are not found at an instant; of vectors that are no corner's; of objects
+  // that have gone.
+  double missing = 0.2;
+  double clutter = 0.15;
+  double removed = 0.1;
+};
+
+// The same options give the same instants. Cameras of 320 x 240, focal length 277 px.
+class ProjectedDrive {
+ public:
+  ProjectedDrive(const ProjectedWorld* world, const ProjectedDriveOptions& options);
+
+  std::int64_t size() const { return size_; }
+  ObservedFlow Flow(std::int64_t instant) const;
+  // Along the route, metres, in the middle of the instant.
+  double Place(std::int64_t instant) const;
+
+ private:
+  FlowField Field(std::size_t side, std::int64_t instant) const;
+
+  const ProjectedWorld* world_;
+  ProjectedDriveOptions options_;
+  double step_m_ = 0;
+  std::int64_t size_ = 0;
+};
+
+}  // namespace homing::accuracy
+
+#endif  // TESTS_ACCURACY_PROJECTED_DRIVE_H_
