@@ -25,9 +25,6 @@ constexpr double kTurnMotion = 0.05;
 constexpr float kLeastMass = 1e-30F;
 // No motion goes further than this, steps.
 constexpr std::int64_t kFurthest = 4;
-// Share of what would run off an end of the journey that is held there: speeds are not known so
-// well that a robot at the end could not seem to be beyond it.
-constexpr float kHeldAtEnds = 0.5F;
 
 // Probabilities of moving by `first`, first + 1, ... steps.
 struct Displacement {
@@ -150,32 +147,11 @@ void RouteBelief::Carry(const Motion& motion, double restart) {
     moved_[lane].resize(static_cast<std::size_t>(end - begin));
     MoveLane(std::span(mixed_).subspan(static_cast<std::size_t>(from)), taps,
              static_cast<float>(restart * PriorOf(lane)), moved_[lane]);
-    HoldAtEnds(lane, taps, from, begin, end);
   }
   lanes_.swap(moved_);
   first_ = begin;
   background_ = background_ * scale_ + restart;
   scale_ = 1;
-}
-
-// Steps beyond the ends would have received their mass from mixed_ as MoveLane gives the others
-// theirs.
-void RouteBelief::HoldAtEnds(std::size_t lane, const std::array<float, 4>& taps, std::int64_t from,
-                             std::int64_t begin, std::int64_t end) {
-  const auto beyond = [&](std::int64_t step) {
-    float mass = 0;
-    for (std::int64_t i = 0; i < std::ssize(taps); ++i) {
-      const std::int64_t source = step - begin + from + i;
-      if (source >= 0 && source < std::ssize(mixed_)) {
-        mass += taps[static_cast<std::size_t>(i)] * mixed_[static_cast<std::size_t>(source)];
-      }
-    }
-    return kHeldAtEnds * mass;
-  };
-  for (std::int64_t away = 1; away <= kFurthest; ++away) {
-    if (begin == 0) moved_[lane].front() += beyond(-away);
-    if (end == step_count_) moved_[lane].back() += beyond(step_count_ - 1 + away);
-  }
 }
 
 void RouteBelief::Move(double restart) {

@@ -72,8 +72,6 @@ class RouteBelief {
   // `begin` on, into mixed_.
   void FillMixed(std::size_t lane, const Motion& motion, std::int64_t begin, std::int64_t end);
   float Beyond(std::size_t lane, std::int64_t step) const;
-  void HoldAtEnds(std::size_t lane, const std::array<float, 4>& taps, std::int64_t from,
-                  std::int64_t begin, std::int64_t end);
 
   std::int64_t step_count_ = 0;
   std::int64_t first_ = 0;

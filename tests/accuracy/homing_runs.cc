@@ -9,6 +9,7 @@
 #include "homing/landmark/profile_code.h"
 #include "homing/localization/localizer.h"
 #include "proto/wire/enum_conversion.h"
+#include "tests/accuracy/projected_drive.h"
 #include "tests/accuracy/server_runs.h"
 
 namespace homing::accuracy {
@@ -30,11 +31,10 @@ double PlaceOf(const Run& run, int map, std::int64_t step) {
   return (*run.maps[static_cast<std::size_t>(map)])[static_cast<std::size_t>(step)].place;
 }
 
-JourneyMap MapOf(const Drive& drive) {
+JourneyMap MapOf(const Observations& observations) {
   JourneyRecorder recorder({});
   JourneyMap map;
-  const Observations observations = ObservationsOf(drive);
-  for (std::size_t i = 0; i < drive.size(); ++i) {
+  for (std::size_t i = 0; i < observations.count; ++i) {
     auto step = recorder.Record(observations.At(i));
     Check(step.status());
     Check(map.Append(**step));
@@ -55,11 +55,29 @@ LocalizerOptions OptionsOf(const Run& run) {
   return options;
 }
 
+double MedianMicroseconds(const JourneyMap& map, const LocalizerOptions& options,
+                          const Observations& query) {
+  const std::string name = "robots/r/journeys/m";
+  const JourneyRef journey{&name, &map};
+  Localizer localizer(options);
+  std::vector<double> times;
+  for (std::size_t i = 0; i < query.count; ++i) {
+    const Observation observation = query.At(i);
+    const auto start = std::chrono::steady_clock::now();
+    Check(localizer.Localize(observation, {&journey, 1}).status());
+    times.push_back(
+        std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - start)
+            .count());
+  }
+  std::ranges::nth_element(times, times.begin() + std::ssize(times) / 2);
+  return times[times.size() / 2];
+}
+
 void LocalizeDirectly(int number, Run& run) {
   std::vector<JourneyMap> maps;
   std::vector<std::string> names;
   for (std::size_t i = 0; i < run.maps.size(); ++i) {
-    maps.push_back(MapOf(*run.maps[i]));
+    maps.push_back(MapOf(ObservationsOf(*run.maps[i])));
     names.push_back(NameOf(number, i));
   }
   std::vector<JourneyRef> journeys;
@@ -133,27 +151,33 @@ void LocalizeRun(const client::Connection* server, int number, Run& run) {
 }
 
 double MicrosecondsAnObservation(const Run& run) {
-  const JourneyMap map = MapOf(*run.maps[0]);
-  const std::string name = "robots/r/journeys/m";
-  const JourneyRef journey{&name, &map};
-  Localizer localizer(OptionsOf(run));
-  const Observations query = QueryOf(run);
-  std::vector<double> times;
-  for (std::size_t i = 0; i < run.query.size(); ++i) {
-    const Observation observation = query.At(i);
-    const auto start = std::chrono::steady_clock::now();
-    Check(localizer.Localize(observation, {&journey, 1}).status());
-    times.push_back(
-        std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - start)
-            .count());
-  }
-  std::ranges::nth_element(times, times.begin() + static_cast<std::ptrdiff_t>(times.size() / 2));
-  return times[times.size() / 2];
+  return MedianMicroseconds(MapOf(ObservationsOf(*run.maps[0])), OptionsOf(run), QueryOf(run));
+}
+
+double MicrosecondsAtSteps(std::int64_t steps) {
+  constexpr double kStepM = 4 / 3.6 / 5;
+  constexpr double kQueryM = 100;
+  const double length = static_cast<double>(steps) * kStepM;
+  const ProjectedWorld world(1, length);
+  const auto one_camera = [](const ProjectedDrive& drive) {
+    return Observations{static_cast<std::size_t>(drive.size()), [&drive](std::size_t i) {
+                          ObservedFlow flow = drive.Flow(static_cast<std::int64_t>(i));
+                          flow.fields[1].reset();
+                          return flow;
+                        }};
+  };
+  const ProjectedDrive out(&world, {.seed = 1, .end_m = length + kStepM / 2});
+  const ProjectedDrive home(&world,
+                            {.seed = 2, .start_m = length / 2, .end_m = length / 2 - kQueryM});
+  LocalizerOptions options;
+  options.travel = Travel::kSame;
+  options.match.max_matches = 1000;
+  return MedianMicroseconds(MapOf(one_camera(out)), options, one_camera(home));
 }
 
 double BytesACameraStep(const Run& run) {
   constexpr double kFingerprintBytes = 16;
-  const JourneyMap map = MapOf(*run.maps[0]);
+  const JourneyMap map = MapOf(ObservationsOf(*run.maps[0]));
   double bytes = 0;
   double camera_steps = 0;
   for (const Side side : {Side::kLeft, Side::kRight}) {

@@ -85,6 +85,9 @@ void Measure(Measurements& all) {
     all.bytes.emplace_back(run.set, BytesACameraStep(run));
     all.microseconds.emplace_back(run.set, MicrosecondsAnObservation(run));
   }
+  for (const std::int64_t steps : {1'000, 10'000}) {
+    all.long_journeys.emplace_back(steps, MicrosecondsAtSteps(steps));
+  }
 }
 
 // One line an answer of Homing.

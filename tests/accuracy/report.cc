@@ -78,6 +78,7 @@ class Writer {
     Real();
     Simulated();
     Lost();
+    LongJourneys();
     Fleet();
     Calibrated();
     return std::move(report_);
@@ -199,6 +200,22 @@ class Writer {
       Add(scene + " kidnapped right after 10 m", again, 0.95);
     }
     report_.markdown += "\n";
+  }
+
+  // The growth is between the first and the last, against that of the steps.
+  void LongJourneys() {
+    const auto& all = measurements_.long_journeys;
+    if (all.size() < 2) return;
+    report_.markdown += "## Long journeys\n\n| steps | us a camera and observation |\n|---|---|\n";
+    for (const auto& [steps, microseconds] : all) {
+      report_.markdown += absl::StrFormat("| %d | %.0f |\n", steps, microseconds);
+    }
+    report_.markdown += "\n";
+    const auto steps = [&all](std::size_t i) { return static_cast<double>(all[i].first); };
+    Add(absl::StrFormat("us a camera at %d steps", all.back().first), all.back().second, 300,
+        false);
+    Add("growth of that over growth of the steps",
+        all.back().second / all.front().second / (steps(all.size() - 1) / steps(0)), 1, false);
   }
 
   void Fleet() {

@@ -2,7 +2,9 @@
 #ifndef TESTS_ACCURACY_REPORT_H_
 #define TESTS_ACCURACY_REPORT_H_
 
+#include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "tests/accuracy/fleet.h"
@@ -27,6 +29,8 @@ struct Measurements {
   // By real set, then one for the simulated ones.
   std::vector<std::pair<std::string, double>> microseconds;
   std::vector<std::pair<std::string, double>> bytes;
+  // Steps of a journey, microseconds a camera and observation on it.
+  std::vector<std::pair<std::int64_t, double>> long_journeys;
   FleetResult fleet;
 };
 

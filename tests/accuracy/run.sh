@@ -2,7 +2,7 @@
 # Runs every real development sequence and every simulated condition through a server, beside methods
 # that keep pictures, and prints a line for each bound (name value bound ok|short). Writes docs/results.md.
 # Exits 1 if any is short.
-# usage: tests/accuracy/run.sh [--quick]     two simulated worlds a scene instead of twenty, no report
+# usage: tests/accuracy/run.sh [--quick]     two simulated worlds a scene instead of twenty, a small fleet, no report
 # HOMING_DATA names the folder of real sequences (default: ../shared/data beside the checkout; without it the
 # simulated part alone is run); HOMING_BUILD a build with homing-server and homing_accuracy (default:
 # build/dev, built if need be).
@@ -10,10 +10,14 @@ set -eu
 cd "$(dirname "$0")/../.."
 root=$PWD
 seeds=20
+fleet=100
 report=docs/results.md
+pictures=docs/images
 if [ "${1:-}" = --quick ]; then
   seeds=2
+  fleet=10
   report=build/accuracy-quick.md
+  pictures=build/accuracy-pictures
 fi
 data=${HOMING_DATA:-$root/../shared/data}
 if [ ! -d "$data/laps" ]; then
@@ -21,7 +25,7 @@ if [ ! -d "$data/laps" ]; then
   data=
 fi
 build=${HOMING_BUILD:-$root/build/dev}
-mkdir -p build
+mkdir -p build "$pictures"
 if [ -z "${HOMING_BUILD:-}" ]; then
   sh deploy/install.sh build client test
   { cmake --preset dev && cmake --build --preset dev --target homing-server homing homing_accuracy -j "$(nproc)"; } \
@@ -69,8 +73,8 @@ key=$(cat homing/flow/*.* homing/image/*.* client/simulator/*.* tests/accuracy/d
 cache=build/accuracy-cache/$key
 mkdir -p "$cache"
 status=0
-"$build/tests/accuracy/homing_accuracy" --server "$address" --data "$data" --cache "$cache" --seeds "$seeds" \
-  --report "$work/results.md" >"$work/bounds" || status=$?
+"$build/tests/accuracy/homing_accuracy" --server "$address" --data "$data" --cache "$cache" --seeds "$seeds" --fleet "$fleet" \
+  --pictures "$pictures" --report "$work/results.md" >"$work/bounds" || status=$?
 if [ -s "$work/results.md" ]; then
   { cat tests/accuracy/results_head.md "$work/results.md" "$work/more.md"; } >"$report"
 fi
