@@ -1,6 +1,7 @@
 #include "tests/accuracy/fleet.h"
 
 #include <cmath>
+#include <iostream>
 #include <mutex>
 #include <string>
 #include <vector>
@@ -81,6 +82,11 @@ FleetResult RunFleet(const client::Connection& server, const FleetOptions& fleet
                        std::abs(places[j].at(static_cast<std::size_t>(last.step())) -
                                 home.Place(last.sequence())) <= fleet.tolerance_m;
     const std::lock_guard lock(mutex);
+    if (!right) {
+      std::cerr << absl::StrFormat("fleet: %s at %.1f m taken for %s, step %d, probability %.2f\n",
+                                   NameOf(j), home.Place(last.sequence()), last.journey(),
+                                   last.has_step() ? last.step() : -1, last.probability());
+    }
     result.right += right ? 1 : 0;
     result.sure += right && last.outcome() == v1::OUTCOME_MATCH ? 1 : 0;
   });
