@@ -32,7 +32,7 @@ absl::StatusCode IoErrorCode(int extended) {
     // The index of the log finds no room.
     case SQLITE_IOERR_SHMSIZE:
       return absl::StatusCode::kResourceExhausted;
-    case SQLITE_IOERR_CORRUPTFS:
+    // A checksum is wrong. (SQLITE_IOERR_CORRUPTFS is what EIO on a read becomes.)
     case SQLITE_IOERR_DATA:
       return absl::StatusCode::kDataLoss;
     default:

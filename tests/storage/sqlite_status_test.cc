@@ -28,7 +28,8 @@ TEST(StatusFromSqlite, TellsTheCallerWhatToDo) {
       {SQLITE_IOERR_FSYNC, absl::StatusCode::kUnavailable},
       {SQLITE_IOERR_READ, absl::StatusCode::kUnavailable},
       {SQLITE_IOERR_SHMSIZE, absl::StatusCode::kResourceExhausted},
-      {SQLITE_IOERR_CORRUPTFS, absl::StatusCode::kDataLoss},
+      {SQLITE_IOERR_CORRUPTFS, absl::StatusCode::kUnavailable},
+      {SQLITE_IOERR_DATA, absl::StatusCode::kDataLoss},
       {SQLITE_MISUSE, absl::StatusCode::kInternal}};
   for (const auto& [code, expected] : codes) {
     EXPECT_THAT(StatusFromSqlite(code, "what happened"),
