@@ -134,6 +134,8 @@ TEST_F(StoreProcessTest, ReadOnlyAfterAKillIsRefusedUntilItWasStartedOnce) {
 }
 
 TEST_F(StoreProcessTest, ADamagedFileIsToldAndSalvaged) {
+  // Enough for pages of their own.
+  robot_.observations = 400;
   Start();
   ASSERT_THAT(Record(), IsOk());
   ASSERT_THAT(Record("robots/r/journeys/b"), IsOk());
