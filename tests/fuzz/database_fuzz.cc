@@ -73,7 +73,9 @@ std::string TakeFile(FuzzInput input) {
   const auto end = input.Take<std::uint16_t>();
   if (end != 0) bytes.resize(std::min<std::size_t>(bytes.size(), end));
   while (!input.empty()) {
-    const std::size_t at = input.Take<std::uint16_t>() | (input.Take<std::uint8_t>() & 1) << 16;
+    const auto low = input.Take<std::uint16_t>();
+    const auto high = static_cast<std::uint32_t>(input.Take<std::uint8_t>() & 1);
+    const std::size_t at = low | high << 16;
     const auto value = input.Take<char>();
     if (!bytes.empty()) bytes[at % bytes.size()] = value;
   }
@@ -83,11 +85,12 @@ std::string TakeFile(FuzzInput input) {
 void UseStore(storage::JourneyStore* store) {
   const auto journeys = store->ListJourneys("", "", 100);
   if (journeys.ok()) {
-    for (const storage::JourneyRecord& record : *journeys) store->LoadMap(record.name).status();
+    for (const storage::JourneyRecord& record : *journeys)
+      store->LoadMap(record.name).IgnoreError();
   }
   JourneyRecorder recorder{JourneySettings{}};
   store->AppendSteps({Next(&recorder, 0)});
-  store->ListModels("", 100).status();
+  store->ListModels("", 100).IgnoreError();
   store->FinishJourney(kJourney).IgnoreError();
   store->DeleteJourney(kJourney).IgnoreError();
 }
@@ -98,7 +101,7 @@ void Run(const std::string& bytes) {
   Remove(path);
   Remove(saved);
   std::ofstream(path, std::ios::binary) << bytes;
-  storage::Salvage(path, saved).status();
+  storage::Salvage(path, saved).IgnoreError();
   if (const auto store = Open(saved); store.ok()) {
     const auto journeys = (*store)->ListJourneys("", "", 100);
     Require(journeys.ok());
