@@ -28,7 +28,7 @@ void Run(const Arguments& a, homing::faults::Figures* figures) {
   if (wanted("power")) CheckKills(a.programs, a.quick ? 10 : 50, true, a.seed + 1, figures);
   if (wanted("full")) CheckFullDisk(a.programs, a.small_disk, figures);
   if (wanted("bad")) CheckBadDisk(a.programs, figures);
-  if (wanted("leaks") && a.valgrind) CheckLeaks(a.programs, figures);
+  if (wanted("leaks") && a.valgrind && !a.quick) CheckLeaks(a.programs, figures);
   if (a.soak_minutes > 0 && wanted("soak")) {
     CheckSoak(a.programs, a.soak_minutes, a.robots, figures);
   }
