@@ -50,6 +50,8 @@ grpc::ChannelArguments MakeArguments() {
   // gRPC's time for one attempt to connect, TLS and all: a slow radio link takes seconds.
   arguments.SetInt(GRPC_ARG_MIN_RECONNECT_BACKOFF_MS, 5000);
   arguments.SetInt(GRPC_ARG_MAX_RECONNECT_BACKOFF_MS, 2000);
+  // A Connection is a connection: programs with several of them do not lose all at once.
+  arguments.SetInt(GRPC_ARG_USE_LOCAL_SUBCHANNEL_POOL, 1);
   // The server limits messages; answers hold no images.
   arguments.SetMaxReceiveMessageSize(64 * 1024 * 1024);
   return arguments;

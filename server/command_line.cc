@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "server/server_options.h"
+#include "server/store_commands.h"
 
 namespace homing::server {
 namespace {
@@ -36,6 +37,9 @@ void AddOptions(CLI::App* app, ServerOptions* options) {
       ->envname("HOMING_DRAIN_MS");
   app->add_flag("--insecure", options->insecure, "Listen off loopback without TLS")
       ->envname("HOMING_INSECURE");
+  app->add_flag("--readonly", options->readonly,
+                "Localise only; the database, which must have been closed well, is not changed")
+      ->envname("HOMING_READONLY");
   app->add_flag("--no-reflection", options->no_reflection, "Do not describe the API to clients")
       ->envname("HOMING_NO_REFLECTION");
 }
@@ -96,6 +100,7 @@ ServerCommand ParseCommandLine(int argc, const char* const* argv) {
   health->fallthrough();
   health->add_option("--server", command.health_server, "Address; by default that of --listen");
   health->add_option("--ca", command.health_ca, "CA of the server's certificate, PEM: use TLS");
+  const StoreCommands store(&app, &command);
   try {
     app.parse(argc, argv);
     if (!config.empty()) {
@@ -115,6 +120,8 @@ ServerCommand ParseCommandLine(int argc, const char* const* argv) {
     command.action = ServerCommand::Action::kHealthCheck;
     command.health_server =
         command.health_server.empty() ? command.options.listen : command.health_server;
+  } else if (store.Choose(&command)) {
+    return command;
   } else if (check_config) {
     command.action = ServerCommand::Action::kCheckConfig;
   }

@@ -17,6 +17,7 @@
 #include "server/deviation_model_service.h"
 #include "server/homing_service.h"
 #include "server/journey_service.h"
+#include "server/store_watch.h"
 
 namespace homing::server {
 namespace {
@@ -108,6 +109,8 @@ struct HomingServer::State {
   HomingServiceHandler homing;
   DeviationModelServiceHandler models;
   std::unique_ptr<grpc::Server> server;
+  // Ends before the server whose health it sets.
+  std::unique_ptr<StoreWatch> watch;
   std::string address;
   std::chrono::milliseconds drain_time{};
 };
@@ -134,6 +137,11 @@ absl::Status HomingServer::State::Listen(const ServerOptions& options) {
                 ? options.listen
                 : absl::StrCat(options.listen.substr(0, options.listen.rfind(':')), ":", port);
   drain_time = std::chrono::milliseconds(options.drain_ms);
+  watch = std::make_unique<StoreWatch>(core->store.get(), [this](bool well) {
+    if (auto* health = server->GetHealthCheckService()) {
+      health->SetServingStatus(well);
+    }
+  });
   return absl::OkStatus();
 }
 
@@ -148,6 +156,7 @@ absl::StatusOr<std::unique_ptr<HomingServer>> HomingServer::Start(
   HOMING_RETURN_IF_ERROR(Validate(options));
   storage::StoreOptions store_options;
   store_options.url = options.database;
+  store_options.read_only = options.readonly;
   HOMING_ASSIGN_OR_RETURN(auto store, storage::OpenJourneyStore(store_options));
   auto state = std::make_unique<State>(std::move(store), CoreOptionsOf(options, std::move(clock)));
   HOMING_RETURN_IF_ERROR(state->Listen(options));
@@ -158,6 +167,7 @@ void HomingServer::Drain() {
   if (!state_->core) {
     return;
   }
+  state_->watch.reset();
   if (auto* health = state_->server->GetHealthCheckService()) {
     health->SetServingStatus(false);
   }

@@ -10,6 +10,7 @@
 #include "server/health_check.h"
 #include "server/homing_server.h"
 #include "server/server_options.h"
+#include "server/store_commands.h"
 
 namespace {
 
@@ -64,6 +65,10 @@ int main(int argc, char** argv) {
       std::cout << (result == 0 ? homing::server::ToToml(command.options) : "");
       return result;
     }
+    case ServerCommand::Action::kDoctor:
+      return homing::server::RunDoctor(command.store_path, command.target_path);
+    case ServerCommand::Action::kBackup:
+      return homing::server::RunBackup(command.store_path, command.target_path);
     case ServerCommand::Action::kServe:
       return Serve(command.options);
   }

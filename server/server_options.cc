@@ -64,7 +64,8 @@ std::string ToToml(const ServerOptions& options) {
          text("tls-client-ca", options.tls_client_ca) + number("max-message", options.max_message) +
          number("max-pixels", options.max_pixels) + number("max-vectors", options.max_vectors) +
          number("workers", options.workers) + number("drain-ms", options.drain_ms) +
-         flag("insecure", options.insecure) + flag("no-reflection", options.no_reflection);
+         flag("insecure", options.insecure) + flag("readonly", options.readonly) +
+         flag("no-reflection", options.no_reflection);
 }
 
 }  // namespace homing::server

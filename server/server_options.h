@@ -32,6 +32,8 @@ struct ServerOptions {
   int drain_ms = 5000;
   // Listen off loopback without TLS.
   bool insecure = false;
+  // Localise only; no byte of the database is changed.
+  bool readonly = false;
   // Do not describe the API to clients that ask.
   bool no_reflection = false;
 };
@@ -44,12 +46,15 @@ std::string ToToml(const ServerOptions& options);
 
 // What the command line asks for.
 struct ServerCommand {
-  enum class Action { kServe, kCheckConfig, kHealthCheck, kExit };
+  enum class Action { kServe, kCheckConfig, kHealthCheck, kDoctor, kBackup, kExit };
   Action action = Action::kServe;
   ServerOptions options;
   // kHealthCheck: whom to ask, and the CA of its certificate (empty: no TLS).
   std::string health_server;
   std::string health_ca;
+  // kDoctor, kBackup: the database file, and the new file to write (kDoctor: empty, nothing).
+  std::string store_path;
+  std::string target_path;
   // kExit: what main returns (help and version were printed, or an error told).
   int exit_code = 0;
 };

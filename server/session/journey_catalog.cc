@@ -189,14 +189,18 @@ absl::StatusOr<LiveJourneys> JourneyCatalog::Resolve(const JourneyName& pattern)
 absl::StatusOr<WriterClaim> JourneyCatalog::Claim(const std::string& name,
                                                   const std::string& writer_id, TimePoint now,
                                                   WriterLease::Evict evict) {
+  if (store_->read_only()) {
+    return absl::FailedPreconditionError("the server is read-only: it records nothing");
+  }
   const std::lock_guard lock(StripeOf(name));
   HOMING_ASSIGN_OR_RETURN(auto journey, OpenLocked(name));
-  const bool changed = journey->record().writer_id != writer_id;
-  HOMING_ASSIGN_OR_RETURN(const std::uint64_t claim,
-                          journey->Claim(writer_id, now, std::move(evict)));
-  if (changed) {
+  HOMING_RETURN_IF_ERROR(journey->CheckClaim(writer_id, now));
+  // First on disk: what is in memory is durable.
+  if (journey->record().writer_id != writer_id) {
     HOMING_RETURN_IF_ERROR(store_->SetWriter(name, writer_id));
   }
+  HOMING_ASSIGN_OR_RETURN(const std::uint64_t claim,
+                          journey->Claim(writer_id, now, std::move(evict)));
   return WriterClaim{std::move(journey), claim};
 }
 

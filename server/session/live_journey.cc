@@ -78,6 +78,12 @@ absl::StatusOr<std::uint64_t> LiveJourney::Claim(const std::string& writer_id, T
   return claim;
 }
 
+absl::Status LiveJourney::CheckClaim(const std::string& writer_id, TimePoint now) const {
+  const std::lock_guard lock(mutex_);
+  HOMING_RETURN_IF_ERROR(CheckWritable());
+  return lease_.CheckFree(writer_id, now);
+}
+
 absl::Status LiveJourney::Renew(std::uint64_t claim, TimePoint now) {
   const std::lock_guard lock(mutex_);
   if (!lease_.Holds(claim)) {

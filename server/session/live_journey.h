@@ -38,6 +38,8 @@ class LiveJourney {
   // finished; ABORTED: another writer's lease lives; NOT_FOUND: deleted.
   absl::StatusOr<std::uint64_t> Claim(const std::string& writer_id, TimePoint now,
                                       WriterLease::Evict evict);
+  // Whether Claim would be refused, and why.
+  absl::Status CheckClaim(const std::string& writer_id, TimePoint now) const;
   // Renews the lease. ABORTED: the claim is over.
   absl::Status Renew(std::uint64_t claim, TimePoint now);
   // Every append handed to the disk is between these two. ABORTED: the claim is over.
