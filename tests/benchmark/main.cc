@@ -1,9 +1,12 @@
 // Measures everything, interleaved; prints a line a bound; writes the report. Run by run.sh.
 // usage: homing_benchmark [--quick] [--report FILE] [--load FILE] [--command TEXT] [--filter REGEX]
+// or: homing_benchmark --copy-journeys DATABASE NUMBER
 // --load names a file of lines "RUN COUNTER VALUE", one a repetition: what load clients measured.
 #include <benchmark/benchmark.h>
+#include <sqlite3.h>
 
 #include <cstdio>
+#include <cstdlib>
 #include <fstream>
 #include <string>
 #include <vector>
@@ -69,6 +72,40 @@ void ReadLoad(const std::string& path, Results& results) {
   }
 }
 
+// Copies the one journey of a database until there are `journeys`, with all its rows.
+bool CopyJourneys(const std::string& path, int journeys) {
+  sqlite3* database = nullptr;
+  bool ok = sqlite3_open(path.c_str(), &database) == SQLITE_OK;
+  const std::string numbers = absl::StrCat(
+      "WITH RECURSIVE n(i) AS (SELECT 2 UNION ALL SELECT i + 1 FROM n WHERE i < ", journeys, ") ");
+  const std::vector<std::string> statements = {
+      "PRAGMA journal_mode=WAL",
+      "PRAGMA synchronous=OFF",
+      "BEGIN",
+      absl::StrCat(
+          "INSERT INTO journeys (journey_id, name, state, writer_id, readers, input, ",
+          "next_sequence, create_time_ns, start_time_ns, end_time_ns, step_count, ",
+          "landmark_count, fingerprint_count, settings) ", numbers,
+          "SELECT i, 'robots/r' || i || '/journeys/copy', state, writer_id, readers, ",
+          "input, next_sequence, create_time_ns, start_time_ns, end_time_ns, step_count, ",
+          "landmark_count, fingerprint_count, settings FROM journeys, n WHERE journey_id = 1"),
+      absl::StrCat("INSERT INTO landmarks ", numbers,
+                   "SELECT i, landmark, side, first_step, last_step, fingerprint_count, spread ",
+                   "FROM n, landmarks WHERE journey_id = 1"),
+      absl::StrCat("INSERT INTO fingerprints (fingerprint_id, landmark, x, y, count) ", numbers,
+                   "SELECT fingerprint_id + ((i - 1) << 27), landmark, x, y, count ",
+                   "FROM n, fingerprints WHERE fingerprint_id >> 27 = 1"),
+      "COMMIT"};
+  for (const std::string& sql : statements) {
+    char* message = nullptr;
+    ok = ok && sqlite3_exec(database, sql.c_str(), nullptr, nullptr, &message) == SQLITE_OK;
+    if (message != nullptr) std::fprintf(stderr, "homing_benchmark: %s\n", message);
+    sqlite3_free(message);
+  }
+  sqlite3_close(database);
+  return ok;
+}
+
 int Run(const Arguments& arguments) {
   RegisterIndexBenchmarks(arguments.quick);
   RegisterFrameBenchmarks(arguments.quick);
@@ -96,6 +133,9 @@ int Run(const Arguments& arguments) {
 }  // namespace homing::benchmarks
 
 int main(int argc, char** argv) {
+  if (argc == 4 && std::string(argv[1]) == "--copy-journeys") {
+    return homing::benchmarks::CopyJourneys(argv[2], std::atoi(argv[3])) ? 0 : 1;
+  }
   homing::benchmarks::Arguments arguments;
   if (!homing::benchmarks::Parse(argc, argv, arguments)) return 2;
   return homing::benchmarks::Run(arguments);
