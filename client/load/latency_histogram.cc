@@ -11,7 +11,7 @@ std::size_t LatencyHistogram::BucketOf(std::uint64_t us) {
     return us;
   }
   // Octaves of 64 buckets each, the first of single microseconds.
-  const int octave = std::bit_width(us) - 1 - kSubBits;
+  const int octave = static_cast<int>(std::bit_width(us)) - 1 - kSubBits;
   const std::uint64_t within = (us >> octave) - kSub;
   return std::min(kBuckets - 1, static_cast<std::size_t>((octave + 1)) * kSub + within);
 }
