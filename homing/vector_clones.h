@@ -1,4 +1,3 @@
-<<<<<<< HEAD
 // Loops that are compiled once a kind of machine; the fitting one is chosen when the program
 // starts. Source: own design.
 #ifndef HOMING_VECTOR_CLONES_H_
@@ -7,16 +6,6 @@
 // Sanitizers are not ready when the choice is made.
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && \
     !defined(__SANITIZE_THREAD__) && !defined(__SANITIZE_ADDRESS__)
-=======
-// HOMING_VECTOR_CLONES before a function: one clone of it a kind of machine, chosen when the
-// program starts. Source: own design.
-#ifndef HOMING_VECTOR_CLONES_H_
-#define HOMING_VECTOR_CLONES_H_
-
-// The sanitizers are not ready when the choice is made.
-#if defined(__x86_64__) && !defined(__SANITIZE_THREAD__) && !defined(__SANITIZE_ADDRESS__) && \
-    !defined(__clang__)
->>>>>>> 0611de4 (Index of all journeys' landmarks: exact, without looking at all of them)
 #define HOMING_VECTOR_CLONES __attribute__((target_clones("avx2", "default")))
 #else
 #define HOMING_VECTOR_CLONES
