@@ -41,8 +41,9 @@ absl::StatusOr<std::shared_ptr<grpc::ChannelCredentials>> MakeCredentials(
   return grpc::SslCredentials(ssl);
 }
 
-grpc::ChannelArguments MakeArguments() {
+grpc::ChannelArguments MakeArguments(const ConnectionOptions& options) {
   grpc::ChannelArguments arguments;
+  arguments.SetInt(GRPC_ARG_USE_LOCAL_SUBCHANNEL_POOL, options.own_connection ? 1 : 0);
   // A dead link shows itself within half a minute even when nothing is sent.
   arguments.SetInt(GRPC_ARG_KEEPALIVE_TIME_MS, 20000);
   arguments.SetInt(GRPC_ARG_KEEPALIVE_TIMEOUT_MS, 10000);
@@ -64,8 +65,8 @@ Connection::Connection(ConnectionOptions options, std::shared_ptr<grpc::Channel>
 
 absl::StatusOr<Connection> Connection::Open(const ConnectionOptions& options) {
   HOMING_ASSIGN_OR_RETURN(const auto credentials, MakeCredentials(options));
-  return Connection(options,
-                    grpc::CreateCustomChannel(options.address, credentials, MakeArguments()));
+  return Connection(
+      options, grpc::CreateCustomChannel(options.address, credentials, MakeArguments(options)));
 }
 
 absl::Status Connection::WaitForServer() const {

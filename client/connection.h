@@ -23,6 +23,8 @@ struct ConnectionOptions {
   std::string tls_ca;
   std::string tls_cert;
   std::string tls_key;
+  // Shares its connection with no other channel of this program.
+  bool own_connection = false;
   // How long the first connection may take.
   std::chrono::milliseconds connect_timeout{5000};
   // How long a broken connection is tried again since it last worked.

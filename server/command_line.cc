@@ -35,6 +35,13 @@ void AddOptions(CLI::App* app, ServerOptions* options) {
       ->envname("HOMING_WORKERS");
   app->add_option("--drain-ms", options->drain_ms, "Time for streams to end at shutdown, ms")
       ->envname("HOMING_DRAIN_MS");
+  app->add_option("--map-cache", options->map_cache,
+                  "Memory for maps that no one uses, for example 1GiB; 0: no limit")
+      ->transform(CLI::AsSizeValue(false))
+      ->envname("HOMING_MAP_CACHE");
+  app->add_flag("--all-journeys-index", options->all_journeys_index,
+                "Index all journeys, so that matching against all is as fast as against one")
+      ->envname("HOMING_ALL_JOURNEYS_INDEX");
   app->add_flag("--insecure", options->insecure, "Listen off loopback without TLS")
       ->envname("HOMING_INSECURE");
   app->add_flag("--readonly", options->readonly,

@@ -72,6 +72,8 @@ CoreOptions CoreOptionsOf(const ServerOptions& options, std::function<TimePoint(
   core.workers = options.workers > 0 ? options.workers : std::max(cores, 1);
   core.decode.max_pixels = options.max_pixels;
   core.wire.max_vectors = options.max_vectors;
+  core.catalog.cache_bytes = options.map_cache;
+  core.all_journeys_index = options.all_journeys_index;
   if (clock) {
     core.clock = std::move(clock);
   }

@@ -34,6 +34,8 @@ absl::Status Validate(const ServerOptions& options) {
       CheckRange<std::int64_t>("max-pixels", options.max_pixels, 256, 268'435'456));
   HOMING_RETURN_IF_ERROR(CheckRange("max-vectors", options.max_vectors, 1, 10'000'000));
   HOMING_RETURN_IF_ERROR(CheckRange("workers", options.workers, 0, 1024));
+  HOMING_RETURN_IF_ERROR(
+      CheckRange<std::int64_t>("map-cache", options.map_cache, 0, std::int64_t{1} << 50));
   HOMING_RETURN_IF_ERROR(CheckRange("drain-ms", options.drain_ms, 0, 600'000));
   if (options.tls_cert.empty() != options.tls_key.empty()) {
     return absl::InvalidArgumentError("tls-cert and tls-key must be given together");
@@ -64,6 +66,8 @@ std::string ToToml(const ServerOptions& options) {
          text("tls-client-ca", options.tls_client_ca) + number("max-message", options.max_message) +
          number("max-pixels", options.max_pixels) + number("max-vectors", options.max_vectors) +
          number("workers", options.workers) + number("drain-ms", options.drain_ms) +
+         number("map-cache", options.map_cache) +
+         flag("all-journeys-index", options.all_journeys_index) +
          flag("insecure", options.insecure) + flag("readonly", options.readonly) +
          flag("no-reflection", options.no_reflection);
 }

@@ -30,6 +30,11 @@ struct ServerOptions {
   int workers = 0;
   // How long streams may take to end when the server is told to stop, ms. [0, 600'000].
   int drain_ms = 5000;
+  // Maps in memory that no one uses are let go of beyond this, bytes; 0: no limit.
+  // [0, 1 PiB].
+  std::int64_t map_cache = std::int64_t{1} << 30;
+  // Keep an index of all journeys' landmarks: 24 to 32 bytes a fingerprint.
+  bool all_journeys_index = false;
   // Listen off loopback without TLS.
   bool insecure = false;
   // Localise only; no byte of the database is changed.

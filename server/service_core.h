@@ -8,6 +8,7 @@
 
 #include "homing/image/frame.h"
 #include "proto/wire/observation_conversion.h"
+#include "server/session/fleet_index.h"
 #include "server/session/journey_catalog.h"
 #include "server/session/model_catalog.h"
 #include "server/session/recording_session.h"
@@ -23,6 +24,8 @@ struct CoreOptions {
   int workers = 2;
   DecodeLimits decode;
   wire::WireLimits wire;
+  CatalogOptions catalog;
+  bool all_journeys_index = false;
   // Steady time for leases.
   std::function<TimePoint()> clock = [] { return std::chrono::steady_clock::now(); };
 };
@@ -32,7 +35,9 @@ struct ServiceCore {
   ServiceCore(std::unique_ptr<storage::JourneyStore> opened, const CoreOptions& core_options)
       : options(core_options),
         store(std::move(opened)),
-        catalog(store.get()),
+        index(core_options.all_journeys_index ? std::make_unique<FleetIndex>(store.get())
+                                              : nullptr),
+        catalog(store.get(), core_options.catalog, index.get()),
         models(store.get()),
         queue(store.get()),
         pool(core_options.workers) {}
@@ -41,6 +46,8 @@ struct ServiceCore {
 
   const CoreOptions options;
   const std::unique_ptr<storage::JourneyStore> store;
+  // Null: not asked for.
+  const std::unique_ptr<FleetIndex> index;
   JourneyCatalog catalog;
   ModelCatalog models;
   storage::CommitQueue queue;

@@ -71,7 +71,7 @@ check_contents() {
     forbid 'OpenCV in a folder that does not use images' 'opencv2/' $(sources storage proto)
     forbid 'gRPC or Protobuf where no network may be' 'grpc|google/protobuf|\.pb\.h' $(sources $no_network)
     forbid 'SQLite outside storage' 'include *[<"](sqlite3|SQLiteCpp)' \
-      $(sources homing server proto client tests | grep -v '^tests/storage/')
+      $(sources homing server proto client tests | grep -vE '^tests/(storage|benchmark)/')
     forbid '.value() outside tests' '\.value\(\)' $(sources homing storage server proto client)
     forbid 'CHECK outside tests and main' '(^|[^_[:alnum:]])D?CHECK(_[A-Z]+)?\(|(^|[^_[:alnum:]])(abort|assert)\(' \
       $(sources homing storage server proto client | grep -v '/main\.cc$')

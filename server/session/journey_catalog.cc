@@ -1,11 +1,13 @@
 #include "server/session/journey_catalog.h"
 
+#include <algorithm>
 #include <functional>
 #include <utility>
 
 #include "absl/strings/str_cat.h"
 #include "homing/status_macros.h"
 #include "server/session/error_reason.h"
+#include "server/session/fleet_index.h"
 
 namespace homing::server {
 namespace {
@@ -45,7 +47,37 @@ std::mutex& JourneyCatalog::StripeOf(const std::string& name) {
 std::shared_ptr<LiveJourney> JourneyCatalog::Find(const std::string& name) {
   const std::lock_guard lock(mutex_);
   const auto found = live_.find(name);
-  return found == live_.end() ? nullptr : found->second;
+  return found == live_.end() ? nullptr : Use(&found->second);
+}
+
+std::shared_ptr<LiveJourney> JourneyCatalog::Use(Cached* cached) {
+  cached->last_used = ++uses_;
+  return cached->journey;
+}
+
+void JourneyCatalog::LetGoOfUnused() {
+  std::int64_t bytes = 0;
+  std::vector<std::pair<std::uint64_t, std::map<std::string, Cached>::iterator>> unused;
+  for (auto cached = live_.begin(); cached != live_.end(); ++cached) {
+    bytes += cached->second.journey->MemoryBytes();
+    // Only the catalog holds it, and the catalog alone hands it out.
+    if (cached->second.journey.use_count() == 1 && cached->second.journey->IsIdle(now_)) {
+      unused.emplace_back(cached->second.last_used, cached);
+    }
+  }
+  if (bytes <= options_.cache_bytes) {
+    return;
+  }
+  std::sort(unused.begin(), unused.end(),
+            [](const auto& a, const auto& b) { return a.first < b.first; });
+  // Some room is made at once, so that this is not done at each use.
+  for (const auto& [last_used, cached] : unused) {
+    if (bytes <= options_.cache_bytes / 10 * 9) {
+      return;
+    }
+    bytes -= cached->second.journey->MemoryBytes();
+    live_.erase(cached);
+  }
 }
 
 absl::StatusOr<std::shared_ptr<LiveJourney>> JourneyCatalog::OpenLocked(const std::string& name) {
@@ -54,9 +86,12 @@ absl::StatusOr<std::shared_ptr<LiveJourney>> JourneyCatalog::OpenLocked(const st
   }
   HOMING_ASSIGN_OR_RETURN(JourneyRecord record, store_->GetJourney(name));
   HOMING_ASSIGN_OR_RETURN(JourneyMap map, store_->LoadMap(name));
-  auto journey = std::make_shared<LiveJourney>(std::move(record), std::move(map));
+  auto journey = std::make_shared<LiveJourney>(std::move(record), std::move(map), index_);
   const std::lock_guard lock(mutex_);
-  live_[name] = journey;
+  live_[name] = {journey, ++uses_};
+  if (options_.cache_bytes > 0) {
+    LetGoOfUnused();
+  }
   return journey;
 }
 
@@ -85,6 +120,9 @@ absl::StatusOr<JourneyRecord> JourneyCatalog::Create(const JourneyRecord& record
     return GetSameOrExists(record);
   }
   HOMING_RETURN_IF_ERROR(status);
+  if (index_ != nullptr) {
+    index_->Created(record.name, record.settings);
+  }
   return store_->GetJourney(record.name);
 }
 
@@ -112,6 +150,9 @@ absl::Status JourneyCatalog::Delete(const std::string& name) {
                    {"JOURNEY_DELETED", {}}));
   }
   HOMING_RETURN_IF_ERROR(store_->DeleteJourney(name));
+  if (index_ != nullptr) {
+    index_->Deleted(name);
+  }
   if (journey) {
     journey->MarkDeleted();
     const std::lock_guard table_lock(mutex_);
@@ -142,6 +183,9 @@ absl::StatusOr<JourneyRecord> JourneyCatalog::Import(const JourneyRecord& record
                                                      const JourneyMap& map) {
   const std::lock_guard lock(StripeOf(record.name));
   HOMING_RETURN_IF_ERROR(store_->ImportJourney(record, map));
+  if (index_ != nullptr) {
+    index_->Imported(record.name, record.settings, map);
+  }
   return store_->GetJourney(record.name);
 }
 
@@ -194,6 +238,10 @@ absl::StatusOr<WriterClaim> JourneyCatalog::Claim(const std::string& name,
   }
   const std::lock_guard lock(StripeOf(name));
   HOMING_ASSIGN_OR_RETURN(auto journey, OpenLocked(name));
+  {
+    const std::lock_guard table_lock(mutex_);
+    now_ = std::max(now_, now);
+  }
   HOMING_RETURN_IF_ERROR(journey->CheckClaim(writer_id, now));
   // First on disk: what is in memory is durable.
   if (journey->record().writer_id != writer_id) {

@@ -17,18 +17,31 @@
 
 namespace homing::server {
 
+class FleetIndex;
+
 // A stream's right to write a journey.
 struct WriterClaim {
   std::shared_ptr<LiveJourney> journey;
   std::uint64_t claim = 0;
 };
 
+struct CatalogOptions {
+  // Maps that no one uses are let go of, those unused longest first, while all together take more
+  // than this, bytes. 0: no limit.
+  std::int64_t cache_bytes = 0;
+};
+
 // Names given here are well formed (resource_name.h). Errors of the store pass through.
 // Thread-safe.
 class JourneyCatalog {
  public:
-  // `store` must outlive the catalog.
-  explicit JourneyCatalog(storage::JourneyStore* store) : store_(store) {}
+  // `store` must outlive the catalog; `index`, if there is one, as well: it is told of all changes.
+  explicit JourneyCatalog(storage::JourneyStore* store, const CatalogOptions& options = {},
+                          FleetIndex* index = nullptr)
+      : store_(store), options_(options), index_(index) {}
+
+  // Null: there is none.
+  FleetIndex* index() const { return index_; }
 
   // Creates; or, when a journey of that name is active, of the same writer_id (not empty) and of
   // the same settings, returns that one. ALREADY_EXISTS.
@@ -66,10 +79,24 @@ class JourneyCatalog {
   absl::Status AddIfCovered(const JourneyName& pattern, const std::string& name,
                             LiveJourneys* journeys);
 
+  struct Cached {
+    std::shared_ptr<LiveJourney> journey;
+    // Grows with each use.
+    std::uint64_t last_used = 0;
+  };
+  // REQUIRES for both: mutex_.
+  std::shared_ptr<LiveJourney> Use(Cached* cached);
+  void LetGoOfUnused();
+
   storage::JourneyStore* const store_;
+  const CatalogOptions options_;
+  FleetIndex* const index_;
   std::array<std::mutex, 32> stripes_;
   std::mutex mutex_;
-  std::map<std::string, std::shared_ptr<LiveJourney>> live_;
+  std::map<std::string, Cached> live_;
+  std::uint64_t uses_ = 0;
+  // The latest that a caller told.
+  TimePoint now_;
 };
 
 }  // namespace homing::server
