@@ -139,6 +139,24 @@ TEST_F(AccessTableTest, AWildcardCoversWhatTheCallerMayRead) {
   EXPECT_THAT(As("robots/owner").Match("robots/-/journeys/private"), IsGrpcOk());
 }
 
+TEST_F(AccessTableTest, NothingIsRecognisedOnWhatTheCallerMayNotRead) {
+  const ServerOptions guarded = options_;
+  options_.tokens.clear();
+  options_.roles.clear();
+  StartServer();
+  ASSERT_THAT(Create(), IsGrpcOk());
+  RecordFlow(0, 20);
+  options_ = guarded;
+  StartServer();
+  channel_ = grpc::CreateChannel(server_->address(), grpc::InsecureChannelCredentials());
+  const v1::Observation seen = RecordRequest(test::FlowAt(0, 7)).observation();
+  for (const char* pattern : {"robots/-/journeys/-", "robots/r/journeys/-", "robots/-/journeys/out",
+                              "robots/r/journeys/out"}) {
+    EXPECT_THAT(As("operators/anna").Recognise(pattern, seen), ElementsAre(kJourney)) << pattern;
+    EXPECT_THAT(As("robots/other").Recognise(pattern, seen), ::testing::IsEmpty()) << pattern;
+  }
+}
+
 TEST_F(AccessTableTest, WhetherAJourneyExistsIsNotToldToThoseWhoMayNotReadIt) {
   const grpc::Status there = As("robots/other").Call(Rpc::kGetJourney, kPrivate);
   const grpc::Status none =

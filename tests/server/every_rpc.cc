@@ -109,6 +109,37 @@ grpc::Status EveryRpc::Match(const std::string& journey) {
   return homing_->MatchLandmarks(Context().get(), request, &response);
 }
 
+std::set<std::string> EveryRpc::Recognise(const std::string& pattern, const v1::Observation& seen) {
+  std::set<std::string> journeys;
+  v1::MatchLandmarksRequest request;
+  request.set_journey(pattern);
+  request.set_travel(v1::TRAVEL_SAME);
+  *request.mutable_left()->mutable_flow_vectors() = seen.left().flow_vectors();
+  v1::MatchLandmarksResponse response;
+  homing_->MatchLandmarks(Context().get(), request, &response);
+  for (const v1::Match& match : response.matches()) {
+    journeys.insert(match.journey());
+  }
+  const auto context = Context();
+  const auto stream = homing_->Localize(context.get());
+  v1::LocalizeRequest config;
+  config.mutable_config()->set_journey(pattern);
+  config.mutable_config()->set_travel(v1::TRAVEL_SAME);
+  stream->Write(config);
+  v1::LocalizeRequest observation;
+  *observation.mutable_observation() = seen;
+  stream->Write(observation);
+  stream->WritesDone();
+  v1::LocalizeResponse answer;
+  while (stream->Read(&answer)) {
+    for (const v1::Match& match : answer.matches()) {
+      journeys.insert(match.journey());
+    }
+  }
+  stream->Finish();
+  return journeys;
+}
+
 grpc::Status EveryRpc::Export(const std::string& journey) {
   const auto context = Context();
   const auto stream =

@@ -5,7 +5,9 @@
 #include <grpcpp/grpcpp.h>
 
 #include <memory>
+#include <set>
 #include <string>
+#include <vector>
 
 #include "homing/v1/deviation_model_service.grpc.pb.h"
 #include "homing/v1/homing_service.grpc.pb.h"
@@ -32,6 +34,8 @@ class EveryRpc {
   grpc::Status Localize(const std::string& journey);
   grpc::Status Record(const std::string& journey);
   grpc::Status Match(const std::string& journey);
+  // Journeys that both queries find in `pattern` for what is seen, each once.
+  std::set<std::string> Recognise(const std::string& pattern, const v1::Observation& seen);
 
  private:
   grpc::Status CallJourneys(Rpc rpc, const std::string& journey);

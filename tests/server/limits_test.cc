@@ -24,8 +24,8 @@ class LimitsTest : public ServerTest {
     ASSERT_THAT(Create(), IsGrpcOk());
   }
   void ExpectCounted(const std::string& code, const std::string& reason) {
-    EXPECT_THAT(server_->MetricsText(), HasSubstr("homing_errors_total{code=\"" + code +
-                                                  "\",reason=\"" + reason + "\"}"));
+    EXPECT_THAT(server_->MetricsText(),
+                HasSubstr("homing_errors_total{code=\"" + code + "\",reason=\"" + reason + "\"}"));
   }
   // A refusal that may be retried.
   void ExpectExhausted(const grpc::Status& status, const std::string& reason) {
