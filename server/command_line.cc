@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "server/option_groups.h"
 #include "server/server_options.h"
 #include "server/store_commands.h"
 
@@ -12,17 +13,16 @@ namespace homing::server {
 namespace {
 
 constexpr char kVersion[] = "0.1.0";
+constexpr char kDefaultHttp[] = "127.0.0.1:8080";
 
 void AddOptions(CLI::App* app, ServerOptions* options) {
   app->add_option("--listen", options->listen, "Address and port; port 0 picks one")
       ->envname("HOMING_LISTEN");
   app->add_option("--database", options->database, "sqlite:PATH")->envname("HOMING_DATABASE");
-  app->add_option("--tls-cert", options->tls_cert, "Certificate chain, PEM")
-      ->envname("HOMING_TLS_CERT");
-  app->add_option("--tls-key", options->tls_key, "Its private key, PEM")->envname("HOMING_TLS_KEY");
-  app->add_option("--tls-client-ca", options->tls_client_ca,
-                  "Clients must show a certificate of this CA, PEM")
-      ->envname("HOMING_TLS_CLIENT_CA");
+  app->add_option("--http", options->http, "Address of GET /metrics; \"off\": none")
+      ->envname("HOMING_HTTP");
+  AddAccessOptions(app, options);
+  AddLimitOptions(app, &options->limits);
   app->add_option("--max-message", options->max_message, "Largest message, for example 16MiB")
       ->transform(CLI::AsSizeValue(false))
       ->envname("HOMING_MAX_MESSAGE");
@@ -94,6 +94,8 @@ int TellError(const std::string& message) {
 
 ServerCommand ParseCommandLine(int argc, const char* const* argv) {
   ServerCommand command;
+  // Metrics are there unless refused; a port that is taken is then no reason not to serve.
+  command.options.http = kDefaultHttp;
   CLI::App app("Localisation server for robots: records journeys and recognises the way home.",
                "homing-server");
   AddOptions(&app, &command.options);
@@ -107,7 +109,11 @@ ServerCommand ParseCommandLine(int argc, const char* const* argv) {
   health->fallthrough();
   health->add_option("--server", command.health_server, "Address; by default that of --listen");
   health->add_option("--ca", command.health_ca, "CA of the server's certificate, PEM: use TLS");
+  health->add_option("--cert", command.health_cert, "Certificate to show, PEM");
+  health->add_option("--key", command.health_key, "Its private key, PEM");
   const StoreCommands store(&app, &command);
+  CLI::App* certs = AddCertsCommand(&app, &command.certificates);
+  CLI::App* token = AddTokenCommand(&app, &command.token);
   try {
     app.parse(argc, argv);
     if (!config.empty()) {
@@ -123,7 +129,12 @@ ServerCommand ParseCommandLine(int argc, const char* const* argv) {
     command.exit_code = TellError(config + ": " + std::string(error.description()));
     return command;
   }
-  if (health->parsed()) {
+  command.options.http_optional = app.get_option("--http")->count() == 0;
+  if (certs->parsed()) {
+    command.action = ServerCommand::Action::kCerts;
+  } else if (token->parsed()) {
+    command.action = ServerCommand::Action::kToken;
+  } else if (health->parsed()) {
     command.action = ServerCommand::Action::kHealthCheck;
     command.health_server =
         command.health_server.empty() ? command.options.listen : command.health_server;

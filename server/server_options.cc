@@ -4,6 +4,7 @@
 #include "absl/strings/str_cat.h"
 #include "homing/range_check.h"
 #include "homing/status_macros.h"
+#include "server/option_groups.h"
 
 namespace homing::server {
 namespace {
@@ -43,6 +44,16 @@ absl::Status Validate(const ServerOptions& options) {
   if (!options.tls_client_ca.empty() && options.tls_cert.empty()) {
     return absl::InvalidArgumentError("tls-client-ca needs tls-cert and tls-key");
   }
+  if (!options.tls_crl_dir.empty() && options.tls_client_ca.empty()) {
+    return absl::InvalidArgumentError("tls-crl-dir needs tls-client-ca");
+  }
+  HOMING_RETURN_IF_ERROR(CheckRange("reload-s", options.reload_s, 1, 3600));
+  HOMING_RETURN_IF_ERROR(Validate(options.limits));
+  if (HasHttp(options) && !options.insecure && !IsLoopback(options.http)) {
+    return absl::InvalidArgumentError(
+        absl::StrCat("http is \"", options.http,
+                     "\"; it has no TLS, so that off loopback insecure is required"));
+  }
   if (options.tls_cert.empty() && !options.insecure && !IsLoopback(options.listen)) {
     return absl::InvalidArgumentError(
         absl::StrCat("listen is \"", options.listen,
@@ -62,8 +73,8 @@ std::string ToToml(const ServerOptions& options) {
     return absl::StrCat(key, " = ", value ? "true" : "false", "\n");
   };
   return text("listen", options.listen) + text("database", options.database) +
-         text("tls-cert", options.tls_cert) + text("tls-key", options.tls_key) +
-         text("tls-client-ca", options.tls_client_ca) + number("max-message", options.max_message) +
+         text("http", HasHttp(options) ? options.http : "off") + AccessToToml(options) +
+         LimitsToToml(options.limits) + number("max-message", options.max_message) +
          number("max-pixels", options.max_pixels) + number("max-vectors", options.max_vectors) +
          number("workers", options.workers) + number("drain-ms", options.drain_ms) +
          number("map-cache", options.map_cache) +

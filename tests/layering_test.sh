@@ -18,12 +18,14 @@ homing/localization homing/localization/ homing/journey/ homing/similarity/ homi
 storage             storage/ homing/
 proto/wire          proto/wire/ homing/ homing/v1/
 server/session      server/session/ storage/ homing/
+server/access       server/access/ server/session/ storage/ homing/
+server/admission    server/admission/ server/session/ storage/ homing/
 server              server/ storage/ homing/ homing/v1/ proto/wire/ google/rpc/ grpc/health/
 client/simulator    client/simulator/ homing/flow/ homing/image/
 client              client/ homing/ homing/v1/ proto/wire/ google/rpc/ grpc/health/
 '
 # Folders where generated code, gRPC and Protobuf may not be seen.
-no_network='homing storage server/session client/simulator'
+no_network='homing storage server/session server/access server/admission client/simulator'
 
 fail() { echo "layering: $*"; failed=1; }
 
@@ -135,6 +137,9 @@ self_test() {
   plant server/a.cc '#include "client/frame_source.h"'
   plant server/session/a.cc '#include "homing/v1/types.pb.h"'
   plant server/session/a.h '#include "server/journey_archive.h"'
+  plant server/access/a.cc '#include "server/unary_call.h"'
+  plant server/access/a.cc '#include <grpcpp/grpcpp.h>'
+  plant server/admission/a.h '#include "server/access/role.h"'
   plant client/a.cc '#include "server/journey_archive.h"'
   plant client/a.cc '#include "storage/journey_store.h"'
   plant client/simulator/a.cc '#include "homing/journey/journey_map.h"'

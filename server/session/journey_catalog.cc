@@ -134,11 +134,27 @@ absl::StatusOr<JourneyRecord> JourneyCatalog::Get(const std::string& name) {
 }
 
 absl::StatusOr<std::vector<JourneyRecord>> JourneyCatalog::List(const std::string& robot,
-                                                                const std::string& after,
-                                                                int limit) {
-  HOMING_ASSIGN_OR_RETURN(std::vector<JourneyRecord> records,
-                          store_->ListJourneys(PrefixOf(robot), after, limit));
-  return records;
+                                                                const std::string& after, int limit,
+                                                                const JourneyFilter& filter) {
+  std::vector<JourneyRecord> records;
+  std::string last = after;
+  while (true) {
+    HOMING_ASSIGN_OR_RETURN(std::vector<JourneyRecord> page,
+                            store_->ListJourneys(PrefixOf(robot), last, limit));
+    const bool is_last = page.size() < static_cast<std::size_t>(limit);
+    last = page.empty() ? last : page.back().name;
+    for (JourneyRecord& record : page) {
+      if (!filter || filter(record)) {
+        records.push_back(std::move(record));
+      }
+      if (records.size() == static_cast<std::size_t>(limit)) {
+        return records;
+      }
+    }
+    if (is_last) {
+      return records;
+    }
+  }
 }
 
 absl::Status JourneyCatalog::Delete(const std::string& name) {
@@ -204,7 +220,8 @@ absl::Status JourneyCatalog::AddIfCovered(const JourneyName& pattern, const std:
   return absl::OkStatus();
 }
 
-absl::StatusOr<LiveJourneys> JourneyCatalog::Resolve(const JourneyName& pattern) {
+absl::StatusOr<LiveJourneys> JourneyCatalog::Resolve(const JourneyName& pattern,
+                                                     const JourneyFilter& filter) {
   LiveJourneys journeys;
   if (!pattern.is_pattern()) {
     HOMING_ASSIGN_OR_RETURN(auto journey, Open(pattern.ToString()));
@@ -216,7 +233,9 @@ absl::StatusOr<LiveJourneys> JourneyCatalog::Resolve(const JourneyName& pattern)
     HOMING_ASSIGN_OR_RETURN(const std::vector<JourneyRecord> page,
                             store_->ListJourneys(PrefixOf(pattern.robot), after, kListPage));
     for (const JourneyRecord& record : page) {
-      HOMING_RETURN_IF_ERROR(AddIfCovered(pattern, record.name, &journeys));
+      if (!filter || filter(record)) {
+        HOMING_RETURN_IF_ERROR(AddIfCovered(pattern, record.name, &journeys));
+      }
     }
     if (page.size() < std::size_t{kListPage}) {
       break;

@@ -3,6 +3,7 @@
 #define SERVER_SESSION_JOURNEY_CATALOG_H_
 
 #include <array>
+#include <functional>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -18,6 +19,8 @@
 namespace homing::server {
 
 class FleetIndex;
+// Which journeys of many are there for the one who asks; empty: all.
+using JourneyFilter = std::function<bool(const storage::JourneyRecord&)>;
 
 // A stream's right to write a journey.
 struct WriterClaim {
@@ -48,9 +51,11 @@ class JourneyCatalog {
   absl::StatusOr<storage::JourneyRecord> Create(const storage::JourneyRecord& record);
   // As in memory when it is there, else as on disk. NOT_FOUND.
   absl::StatusOr<storage::JourneyRecord> Get(const std::string& name);
-  // In order of name, after `after`, of one robot or of all (kWildcard); at most `limit`.
+  // In order of name, after `after`, of one robot or of all (kWildcard), those that `filter` lets
+  // through; at most `limit`.
   absl::StatusOr<std::vector<storage::JourneyRecord>> List(const std::string& robot,
-                                                           const std::string& after, int limit);
+                                                           const std::string& after, int limit,
+                                                           const JourneyFilter& filter = nullptr);
   // An active writer's stream ends ABORTED. NOT_FOUND.
   absl::Status Delete(const std::string& name);
   // An active writer's stream ends FAILED_PRECONDITION. NOT_FOUND; ABORTED: `writer_id` is not that
@@ -63,8 +68,10 @@ class JourneyCatalog {
 
   // Loads the map on first use. NOT_FOUND.
   absl::StatusOr<std::shared_ptr<LiveJourney>> Open(const std::string& name);
-  // All that `pattern` covers, in order of name. NOT_FOUND: none.
-  absl::StatusOr<LiveJourneys> Resolve(const JourneyName& pattern);
+  // All that `pattern` covers and, if it is one, `filter` lets through, in order of name.
+  // NOT_FOUND: none.
+  absl::StatusOr<LiveJourneys> Resolve(const JourneyName& pattern,
+                                       const JourneyFilter& filter = nullptr);
   // As LiveJourney::Claim; the writer is kept on disk. NOT_FOUND.
   absl::StatusOr<WriterClaim> Claim(const std::string& name, const std::string& writer_id,
                                     TimePoint now, WriterLease::Evict evict);

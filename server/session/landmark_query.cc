@@ -133,10 +133,11 @@ absl::StatusOr<LandmarkQueryResult> MatchLandmarks(JourneyCatalog* catalog,
     return absl::InvalidArgumentError("left and right are both empty; a camera is required");
   }
   HOMING_ASSIGN_OR_RETURN(const QueryRobot robot, MeasureRobot(query, limits));
-  if (catalog->index() != nullptr && IsAll(pattern)) {
+  // The index knows no callers: it answers those who may read all.
+  if (catalog->index() != nullptr && IsAll(pattern) && !query.filter) {
     return MatchAll(catalog->index(), query, robot, limits);
   }
-  HOMING_ASSIGN_OR_RETURN(const LiveJourneys covered, catalog->Resolve(pattern));
+  HOMING_ASSIGN_OR_RETURN(const LiveJourneys covered, catalog->Resolve(pattern, query.filter));
   HOMING_ASSIGN_OR_RETURN(const JourneySelection selection,
                           SelectJourneys(covered, pattern, robot));
   HOMING_ASSIGN_OR_RETURN(SeenNow now, See(query, selection.options, limits));
