@@ -78,12 +78,11 @@ void ProjectedWorld::AddFront(std::size_t side, double begin, double end, std::u
   const double away = random.Uniform(5, 11);
   const double shift = random.Uniform(-0.5, 0.5);
   const std::vector<Mark> pattern = PatternOf(random.Below(kPatterns));
-  const std::int32_t object = objects_++;
   for (double at = begin; at < end; at += kPatternWidthM) {
     for (const Mark& mark : pattern) {
       if (at + mark.along < end) {
         corners_[side].push_back({static_cast<float>(at + mark.along), static_cast<float>(away),
-                                  static_cast<float>(mark.up + shift), object});
+                                  static_cast<float>(mark.up + shift), -1});
       }
     }
   }
@@ -118,6 +117,11 @@ double ProjectedDrive::Place(std::int64_t instant) const {
   return options_.start_m + (static_cast<double>(instant) + 0.5) * step_m_;
 }
 
+bool ProjectedDrive::IsGone(const ProjectedWorld::Corner& corner) const {
+  const auto object = static_cast<std::uint64_t>(corner.object);
+  return corner.object >= 0 && client::ToUnit(Mix(options_.seed, 991, object)) < options_.removed;
+}
+
 FlowField ProjectedDrive::Field(std::size_t side, std::int64_t instant) const {
   SeededRandom random(Mix(options_.seed, side, static_cast<std::uint64_t>(instant)));
   FlowField field{.width = kWidth, .height = kHeight, .vectors = {}};
@@ -138,8 +142,7 @@ FlowField ProjectedDrive::Field(std::size_t side, std::int64_t instant) const {
     const double start = 0.5 * kWidth + sign * scale * (corner->along - before);
     const double end = 0.5 * kWidth + sign * scale * (corner->along - now);
     if (!Inside(start, y) || !Inside(end, y)) continue;
-    const std::uint64_t gone = Mix(options_.seed, 991, static_cast<std::uint64_t>(corner->object));
-    if (client::ToUnit(gone) < options_.removed || random.Chance(options_.missing)) continue;
+    if (IsGone(*corner) || random.Chance(options_.missing)) continue;
     bool& cell = taken[static_cast<std::size_t>(static_cast<int>(y) / kCellPx * kColumns +
                                                 static_cast<int>(start) / kCellPx)];
     if (cell) continue;

@@ -22,8 +22,8 @@ class ProjectedWorld {
     float along = 0;
     float away = 0;
     float up = 0;
-    // What it stands on: gone or there as one.
-    std::int32_t object = 0;
+    // What it stands on: gone or there as one. Below 0: a front, always there.
+    std::int32_t object = -1;
   };
 
   // By side of the route, home first.
@@ -49,8 +49,8 @@ struct ProjectedDriveOptions {
   Travel travel = Travel::kSame;
   // Of either end of a vector, pixels.
   double noise_px = 0.2;
-  // Share of corners that are not found at an instant; of vectors that are no corner's; of objects
-  // that have gone.
+  // Share of corners that are not found at an instant; of vectors that are no corner's; of posts,
+  // boxes and trees that have gone.
   double missing = 0.2;
   double clutter = 0.15;
   double removed = 0.1;
@@ -67,6 +67,7 @@ class ProjectedDrive {
   double Place(std::int64_t instant) const;
 
  private:
+  bool IsGone(const ProjectedWorld::Corner& corner) const;
   FlowField Field(std::size_t side, std::int64_t instant) const;
 
   const ProjectedWorld* world_;
