@@ -12,7 +12,7 @@ namespace {
 // Share of the moving mass that one direction must have to be told.
 constexpr double kDirectionMargin = 0.6;
 // Less on the route is nothing.
-constexpr double kLeastMass = 1e-30;
+constexpr double kNoMass = 1e-30;
 // Fitted: see docs/algorithm.md.
 constexpr MembershipRates kByProfiles = {
     .first_weight = 0.7, .weight = 0.06, .least_log_odds = -4, .most_log_odds = 0.2};
@@ -104,7 +104,7 @@ double PositionFilter::Weigh(const std::vector<StepMass>& predicted,
     after += masses_[i].Sum() + beyond;
   }
   Normalise(after);
-  return std::log(std::max(after, kLeastMass) / std::max(before, kLeastMass));
+  return std::log(std::max(after, kNoMass) / std::max(before, kNoMass));
 }
 
 void PositionFilter::CorrectByProfiles(std::span<const JourneyRef> journeys,
@@ -162,13 +162,13 @@ void PositionFilter::Unfocus() {
 
 void PositionFilter::Normalise(double mass) {
   for (std::size_t i = 0; i < beliefs_.size(); ++i) {
-    if (mass > kLeastMass) {
+    if (mass > kNoMass) {
       beliefs_[i].Scale(1 / mass);
     } else {
       beliefs_[i].AddToEach(1 / static_cast<double>(step_count_));
     }
   }
-  if (mass > kLeastMass) {
+  if (mass > kNoMass) {
     for (StepMass& of_journey : masses_) {
       for (float& value : of_journey.mass) {
         value /= static_cast<float>(mass);

@@ -22,8 +22,8 @@ CellMask CoveredCells(double magnification) {
     for (int column = 0; column < FlowProfile::kColumns; ++column) {
       const double outmost =
           std::max(FromMiddle(row, FlowProfile::kRows), FromMiddle(column, FlowProfile::kColumns));
-      covered[static_cast<std::size_t>(row * FlowProfile::kColumns + column)] =
-          outmost <= magnification ? 255 : 0;
+      const int cell = row * FlowProfile::kColumns + column;
+      covered[static_cast<std::size_t>(cell)] = outmost <= magnification ? 255 : 0;
     }
   }
   return covered;
