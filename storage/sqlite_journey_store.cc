@@ -17,7 +17,7 @@ absl::Status SqliteJourneyStore::Write(const Body& body) {
   }
   std::lock_guard lock(write_mutex_);
   const int changes = writer_->changes();
-  const absl::Status status = writer_->Write([&] { return body(*writer_); });
+  absl::Status status = writer_->Write([&] { return body(*writer_); });
   NoteHealth(status, writer_->changes() != changes);
   return status;
 }
