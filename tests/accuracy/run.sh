@@ -2,7 +2,8 @@
 # Runs every real development sequence and every simulated condition through a server, beside methods
 # that keep pictures, and prints a line for each bound (name value bound ok|short). Writes docs/results.md.
 # Exits 1 if any is short.
-# usage: tests/accuracy/run.sh [--quick]     two simulated worlds a scene instead of twenty, a small fleet, no report
+# usage: tests/accuracy/run.sh [--quick | --seeds N]     --quick: two simulated worlds a scene instead of twenty, a small fleet,
+# no report; --seeds: so many worlds
 # HOMING_DATA names the folder of real sequences (default: ../shared/data beside the checkout; without it the
 # simulated part alone is run); HOMING_BUILD a build with homing-server and homing_accuracy (default:
 # build/dev, built if need be).
@@ -13,12 +14,15 @@ seeds=20
 fleet=100
 report=docs/results.md
 pictures=docs/images
-if [ "${1:-}" = --quick ]; then
-  seeds=2
-  fleet=10
-  report=build/accuracy-quick.md
-  pictures=build/accuracy-pictures
-fi
+case ${1:-} in
+  --quick)
+    seeds=2
+    fleet=10
+    report=build/accuracy-quick.md
+    pictures=build/accuracy-pictures
+    ;;
+  --seeds) seeds=$2 ;;
+esac
 data=${HOMING_DATA:-$root/../shared/data}
 if [ ! -d "$data/laps" ]; then
   echo "SKIPPED: no real sequences in $data (HOMING_DATA); simulated ones alone"
@@ -76,7 +80,12 @@ status=0
 "$build/tests/accuracy/homing_accuracy" --server "$address" --data "$data" --cache "$cache" --seeds "$seeds" --fleet "$fleet" \
   --pictures "$pictures" --report "$work/results.md" >"$work/bounds" || status=$?
 if [ -s "$work/results.md" ]; then
-  { cat tests/accuracy/results_head.md "$work/results.md" "$work/more.md"; } >"$report"
+  {
+    cat tests/accuracy/results_head.md
+    echo "Simulated: $seeds worlds a scene."
+    echo
+    cat "$work/results.md" "$work/more.md"
+  } >"$report"
 fi
 cat "$work/bounds"
 exit "$status"
