@@ -2,13 +2,10 @@
 #ifndef SERVER_STORE_COMMANDS_H_
 #define SERVER_STORE_COMMANDS_H_
 
+#include <CLI/CLI.hpp>
 #include <string>
 
 #include "server/server_options.h"
-
-namespace CLI {
-class App;
-}
 
 namespace homing::server {
 

@@ -16,7 +16,7 @@ namespace {
 
 namespace tls = grpc::experimental;
 
-std::string StringOf(grpc::string_ref text) { return std::string(text.data(), text.size()); }
+std::string StringOf(const grpc::string_ref& text) { return std::string(text.data(), text.size()); }
 
 // OpenSSL has verified chain and dates by then; what this adds is revocation.
 class ClientVerifier : public tls::ExternalCertificateVerifier {
