@@ -8,6 +8,12 @@
 
 namespace homing {
 
+// Probabilities of moving by `first`, first + 1, ... steps.
+struct Displacement {
+  int first = 0;
+  std::array<float, 4> probabilities{};
+};
+
 // What a lane keeps of itself and takes from others, a step.
 struct LaneMix {
   float stay = 1;

@@ -26,12 +26,6 @@ constexpr float kLeastMass = 1e-30F;
 // No motion goes further than this, steps.
 constexpr std::int64_t kFurthest = 4;
 
-// Probabilities of moving by `first`, first + 1, ... steps.
-struct Displacement {
-  int first = 0;
-  std::array<float, 4> probabilities{};
-};
-
 // A speed between two whole numbers moves by either so that it is right on average.
 Displacement DisplacementOf(double speed) {
   const double whole = std::floor(speed);
