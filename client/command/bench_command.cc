@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::array<double, 5> kPercentiles = {0.5, 0.9, 0.99, 0.999, 0.9999};
 
-nlohmann::ordered_json ToJson(const LoadOptions& options, const LoadResult& result) {
+nlohmann::ordered_json BenchJson(const LoadOptions& options, const LoadResult& result) {
   const LoadCounts& counts = result.counts;
   nlohmann::ordered_json line{
       {"robots", options.robots},
@@ -51,7 +51,7 @@ absl::Status Bench(const Session& session, const LoadOptions& options) {
                               session.connection, options,
                               [&](const std::string& text) { session.Log(text); }, session.stop));
   if (options.prepare_only) return absl::OkStatus();
-  HOMING_RETURN_IF_ERROR(session.json ? session.PrintJson(ToJson(options, result))
+  HOMING_RETURN_IF_ERROR(session.json ? session.PrintJson(BenchJson(options, result))
                                       : session.Print(Table(result)));
   return result.failed_robots == 0 ? absl::OkStatus() : result.counts.status;
 }

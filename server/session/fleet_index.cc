@@ -10,7 +10,7 @@
 namespace homing::server {
 namespace {
 
-constexpr int kListPage = 1000;
+constexpr int kRecordPage = 1000;
 // Of what was deleted, taken out at each change: well under a millisecond.
 constexpr std::uint32_t kSweptAtOnce = 64;
 
@@ -39,11 +39,11 @@ absl::Status FleetIndex::LoadAll() {
   std::string after;
   while (!stopping_) {
     HOMING_ASSIGN_OR_RETURN(const std::vector<storage::JourneyRecord> page,
-                            store_->ListJourneys("robots/", after, kListPage));
+                            store_->ListJourneys("robots/", after, kRecordPage));
     for (const storage::JourneyRecord& record : page) {
       HOMING_RETURN_IF_ERROR(Load(record));
     }
-    if (page.size() < std::size_t{kListPage}) {
+    if (page.size() < std::size_t{kRecordPage}) {
       return absl::OkStatus();
     }
     after = page.back().name;
