@@ -13,7 +13,7 @@
 namespace homing::server {
 namespace {
 
-std::string TextOf(grpc::string_ref text) { return std::string(text.data(), text.size()); }
+std::string TextOf(const grpc::string_ref& text) { return std::string(text.data(), text.size()); }
 
 std::vector<std::string> Properties(const grpc::AuthContext& context, const char* name) {
   std::vector<std::string> values;
