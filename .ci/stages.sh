@@ -4,7 +4,7 @@
 project_sources() { git ls-files '*.cc' '*.h'; }
 
 stage_packages() {
-  sh deploy/install.sh build client test check
+  sh deploy/install.sh build client test check fuzz
   # What the last stages need may be missing: they then say so.
   sh deploy/install.sh container || echo "containers cannot be tried here"
 }
@@ -69,6 +69,11 @@ stage_tidy() {
   cmake --preset tidy
   cmake --build --preset tidy -j "$jobs" -- -k 0
 }
+
+# Kills, power cuts, full and failing disks: few of each.
+stage_faults() { sh tests/faults/run.sh --quick; }
+
+stage_fuzz() { sh tests/fuzz/run.sh 30; }
 
 stage_tsan() { HOMING_PRESET=tsan sh tests/run.sh; }
 

@@ -7,9 +7,12 @@
 #include <fstream>
 #include <sstream>
 
+#include "absl/strings/ascii.h"
+#include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
 #include "client/backoff.h"
 #include "client/rpc_status.h"
+#include "client/token_interceptor.h"
 #include "homing/status_macros.h"
 
 namespace homing::client {
@@ -26,9 +29,18 @@ absl::StatusOr<std::string> ReadPem(const std::string& flag, const std::string& 
   return text.str();
 }
 
+bool UsesTls(const ConnectionOptions& options) {
+  return !options.tls_ca.empty() || !options.tls_cert.empty() || !options.tls_key.empty();
+}
+
+bool IsThisMachine(const std::string& address) {
+  return absl::StartsWith(address, "127.0.0.1:") || absl::StartsWith(address, "localhost:") ||
+         absl::StartsWith(address, "[::1]:") || absl::StartsWith(address, "unix:");
+}
+
 absl::StatusOr<std::shared_ptr<grpc::ChannelCredentials>> MakeCredentials(
     const ConnectionOptions& options) {
-  if (options.tls_ca.empty() && options.tls_cert.empty() && options.tls_key.empty()) {
+  if (!UsesTls(options)) {
     return grpc::InsecureChannelCredentials();
   }
   if (options.tls_cert.empty() != options.tls_key.empty()) {
@@ -41,8 +53,26 @@ absl::StatusOr<std::shared_ptr<grpc::ChannelCredentials>> MakeCredentials(
   return grpc::SslCredentials(ssl);
 }
 
-grpc::ChannelArguments MakeArguments() {
+// "" without a token file.
+absl::StatusOr<std::string> ReadToken(const ConnectionOptions& options) {
+  HOMING_ASSIGN_OR_RETURN(const std::string text, ReadPem("--token-file", options.token_file));
+  const std::string token(absl::StripAsciiWhitespace(text));
+  const bool printable = std::all_of(token.begin(), token.end(), absl::ascii_isgraph);
+  if (!options.token_file.empty() && (token.empty() || !printable)) {
+    return absl::InvalidArgumentError(
+        absl::StrCat("--token-file: ", options.token_file, " does not hold one token"));
+  }
+  if (!token.empty() && !UsesTls(options) && !options.insecure && !IsThisMachine(options.address)) {
+    return absl::InvalidArgumentError(
+        absl::StrCat("--token-file: the token would be sent to ", options.address,
+                     " in plain text; give --tls-ca, or --insecure if the network is trusted"));
+  }
+  return token;
+}
+
+grpc::ChannelArguments MakeArguments(const ConnectionOptions& options) {
   grpc::ChannelArguments arguments;
+  arguments.SetInt(GRPC_ARG_USE_LOCAL_SUBCHANNEL_POOL, options.own_connection ? 1 : 0);
   // A dead link shows itself within half a minute even when nothing is sent.
   arguments.SetInt(GRPC_ARG_KEEPALIVE_TIME_MS, 20000);
   arguments.SetInt(GRPC_ARG_KEEPALIVE_TIMEOUT_MS, 10000);
@@ -50,6 +80,8 @@ grpc::ChannelArguments MakeArguments() {
   // gRPC's time for one attempt to connect, TLS and all: a slow radio link takes seconds.
   arguments.SetInt(GRPC_ARG_MIN_RECONNECT_BACKOFF_MS, 5000);
   arguments.SetInt(GRPC_ARG_MAX_RECONNECT_BACKOFF_MS, 2000);
+  // A Connection is a connection: programs with several of them do not lose all at once.
+  arguments.SetInt(GRPC_ARG_USE_LOCAL_SUBCHANNEL_POOL, 1);
   // The server limits messages; answers hold no images.
   arguments.SetMaxReceiveMessageSize(64 * 1024 * 1024);
   return arguments;
@@ -62,8 +94,14 @@ Connection::Connection(ConnectionOptions options, std::shared_ptr<grpc::Channel>
 
 absl::StatusOr<Connection> Connection::Open(const ConnectionOptions& options) {
   HOMING_ASSIGN_OR_RETURN(const auto credentials, MakeCredentials(options));
+  HOMING_ASSIGN_OR_RETURN(const std::string token, ReadToken(options));
+  if (token.empty()) {
+    return Connection(
+        options, grpc::CreateCustomChannel(options.address, credentials, MakeArguments(options)));
+  }
   return Connection(options,
-                    grpc::CreateCustomChannel(options.address, credentials, MakeArguments()));
+                    grpc::experimental::CreateCustomChannelWithInterceptors(
+                        options.address, credentials, MakeArguments(options), SendToken(token)));
 }
 
 absl::Status Connection::WaitForServer() const {
@@ -74,8 +112,10 @@ absl::Status Connection::WaitForServer() const {
                          state != GRPC_CHANNEL_SHUTDOWN &&
                          channel_->WaitForStateChange(state, deadline);
     if (!changed) {
-      return absl::UnavailableError(
-          absl::StrCat("no server answers at ", options_.address, " (--server)"));
+      return absl::UnavailableError(absl::StrCat(
+          "no server answers at ", options_.address, " (--server)",
+          UsesTls(options_) ? ", or TLS failed: the CA, or the certificate of one side, is not good"
+                            : ", or it wants TLS (--tls-ca)"));
     }
     state = channel_->GetState(true);
   }

@@ -23,6 +23,12 @@ struct ConnectionOptions {
   std::string tls_ca;
   std::string tls_cert;
   std::string tls_key;
+  // Shares its connection with no other channel of this program.
+  bool own_connection = false;
+  // File of a bearer token, for robots without a certificate. Sent with every call; without TLS
+  // only to this machine, unless `insecure`.
+  std::string token_file;
+  bool insecure = false;
   // How long the first connection may take.
   std::chrono::milliseconds connect_timeout{5000};
   // How long a broken connection is tried again since it last worked.
@@ -32,7 +38,8 @@ struct ConnectionOptions {
 // Thread-safe.
 class Connection {
  public:
-  // Does not wait for the server. INVALID_ARGUMENT: key without certificate; NOT_FOUND: PEM file.
+  // Does not wait for the server. INVALID_ARGUMENT: key without certificate, a token that would be
+  // sent in plain text, or none in its file; NOT_FOUND: a file.
   static absl::StatusOr<Connection> Open(const ConnectionOptions& options);
 
   const std::shared_ptr<grpc::Channel>& channel() const { return channel_; }

@@ -6,6 +6,9 @@ include(CMakeParseArguments)
 # g++ 12 takes an empty std::optional for an uninitialised one when it inlines much (-O3): not an error.
 set(HOMING_WARNINGS -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Wnon-virtual-dtor -Werror
   -Wno-maybe-uninitialized)
+if(CMAKE_CXX_COMPILER_ID STREQUAL "Clang")
+  list(APPEND HOMING_WARNINGS -Wno-unknown-warning-option)
+endif()
 
 function(homing_library name)
   cmake_parse_arguments(A "SEPARATE" "" "SOURCES;DEPS" ${ARGN})

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "absl/status/status.h"
+#include "absl/strings/cord.h"
 #include "absl/strings/str_cat.h"
 
 namespace homing {
@@ -34,7 +35,10 @@ inline absl::Status Within(const std::string& holder, const absl::Status& status
   if (status.ok()) {
     return status;
   }
-  return absl::Status(status.code(), absl::StrCat(holder, ": ", std::string(status.message())));
+  absl::Status longer(status.code(), absl::StrCat(holder, ": ", std::string(status.message())));
+  status.ForEachPayload(
+      [&](absl::string_view url, const absl::Cord& value) { longer.SetPayload(url, value); });
+  return longer;
 }
 
 }  // namespace homing

@@ -6,6 +6,7 @@
 #include "homing/status_macros.h"
 #include "server/journey_archive.h"
 #include "server/message_conversion.h"
+#include "server/session/error_reason.h"
 #include "server/status_conversion.h"
 
 namespace homing::server {
@@ -13,12 +14,25 @@ namespace {
 
 constexpr std::size_t kChunk = 256 << 10;
 
+// Both kinds of stream: a caller known no more, or one that does not move, is cut off.
+void CutOffIfStale(const IncomingCall& call, StreamWatch* watch) {
+  if (watch->IsIdle() || !call.CheckIdentity().ok()) {
+    watch->BreakOff();
+  }
+}
+
 }  // namespace
+
+void ExportStream::Tick() { CutOffIfStale(call_, &watch_); }
 
 void ExportStream::Open() {
   self_ = shared_from_this();
+  absl::Status entered = call_.EnterStream();
   if (!core_->streams.Add(self_)) {
-    Finish(ToGrpcStatus(DrainingError()));
+    entered = DrainingError();
+  }
+  if (!entered.ok()) {
+    Finish(call_.Finish(entered));
     return;
   }
   const bool admitted = core_->pool.TryRun([self = self_] {
@@ -26,15 +40,16 @@ void ExportStream::Open() {
     if (status.ok()) {
       self->WriteNext();
     } else {
-      self->Finish(ToGrpcStatus(status));
+      self->Finish(self->call_.Finish(status));
     }
   });
   if (!admitted) {
-    Finish(ToGrpcStatus(BusyError()));
+    Finish(call_.Finish(BusyError()));
   }
 }
 
 absl::Status ExportStream::Encode() {
+  HOMING_RETURN_IF_ERROR(call_.Authorize(name_));
   HOMING_ASSIGN_OR_RETURN(const JourneyName name, ParseJourneyName(name_, "name"));
   HOMING_ASSIGN_OR_RETURN(auto journey, core_->catalog.Open(name.ToString()));
   const LiveJourneys one = {std::move(journey)};
@@ -45,7 +60,7 @@ absl::Status ExportStream::Encode() {
 
 void ExportStream::WriteNext() {
   if (written_ >= file_.size()) {
-    Finish(grpc::Status::OK);
+    Finish(call_.Finish(absl::OkStatus()));
     return;
   }
   chunk_.set_chunk(file_.substr(written_, kChunk));
@@ -54,24 +69,32 @@ void ExportStream::WriteNext() {
 }
 
 void ExportStream::OnWriteDone(bool ok) {
+  watch_.Moved();
   if (ok) {
     WriteNext();
   } else {
-    Finish(grpc::Status::CANCELLED);
+    Finish(call_.Finish(absl::CancelledError("the client went away")));
   }
 }
 
 void ExportStream::OnDone() {
+  watch_.Forget();
   const std::shared_ptr<ExportStream> self = std::move(self_);
   core_->streams.Remove(self);
 }
 
+void ImportStream::Tick() { CutOffIfStale(call_, &watch_); }
+
 void ImportStream::Open() {
   self_ = shared_from_this();
-  if (core_->streams.Add(self_)) {
+  absl::Status entered = call_.EnterStream();
+  if (!core_->streams.Add(self_)) {
+    entered = DrainingError();
+  }
+  if (entered.ok()) {
     StartRead(&request_);
   } else {
-    Finish(ToGrpcStatus(DrainingError()));
+    Finish(call_.Finish(entered));
   }
 }
 
@@ -81,34 +104,49 @@ absl::Status ImportStream::Take(const v1::ImportJourneyRequest& request) {
       return absl::InvalidArgumentError("name came twice; only the first message is name");
     }
     name_ = request.name();
-    return ParseJourneyName(name_, "name").status();
+    HOMING_RETURN_IF_ERROR(ParseJourneyName(name_, "name").status());
+    // A write goes by the name alone: nothing is looked up.
+    return call_.Authorize(name_);
   }
   if (name_.empty()) {
     return absl::InvalidArgumentError("chunk came first; the first message must be name");
   }
-  const auto size = static_cast<std::int64_t>(file_.size() + request.chunk().size());
+  return TakeChunk(request.chunk());
+}
+
+absl::Status ImportStream::TakeChunk(const std::string& chunk) {
+  const auto bytes = static_cast<std::int64_t>(chunk.size());
+  const auto size = static_cast<std::int64_t>(file_.size()) + bytes;
   if (size > static_cast<std::int64_t>(kMaxArchiveBytes)) {
     return absl::InvalidArgumentError(absl::StrCat("chunk makes the file ", size,
                                                    " bytes; at most ",
                                                    static_cast<std::int64_t>(kMaxArchiveBytes)));
   }
-  file_ += request.chunk();
+  taken_ += bytes;
+  const std::int64_t most = core_->options.limits.memory_quota;
+  if ((core_->import_bytes += bytes) > most && most > 0) {
+    return WithReason(absl::ResourceExhaustedError(absl::StrCat(
+                          "the files being imported are more than memory-quota, ", most, " bytes")),
+                      {"IMPORT_MEMORY", {}});
+  }
+  file_ += chunk;
   return absl::OkStatus();
 }
 
 void ImportStream::OnReadDone(bool ok) {
   if (!ok) {
     if (!core_->pool.TryRun([self = self_] { self->Complete(); })) {
-      Finish(ToGrpcStatus(BusyError()));
+      Finish(call_.Finish(BusyError()));
     }
     return;
   }
+  watch_.Moved();
   const absl::Status status = Guarded([this] { return Take(request_); });
   if (status.ok()) {
     request_.Clear();
     StartRead(&request_);
   } else {
-    Finish(ToGrpcStatus(status));
+    Finish(call_.Finish(status));
   }
 }
 
@@ -116,6 +154,7 @@ absl::Status ImportStream::Store() {
   if (name_.empty()) {
     return absl::InvalidArgumentError("name is missing; the first message must be name");
   }
+  HOMING_RETURN_IF_ERROR(core_->quota.CheckNew(name_));
   HOMING_ASSIGN_OR_RETURN(ArchivedJourney archive, DecodeJourney(file_));
   archive.record.name = name_;
   archive.record.create_time_ns = WallClockNs();
@@ -126,10 +165,12 @@ absl::Status ImportStream::Store() {
 }
 
 void ImportStream::Complete() {
-  Finish(ToGrpcStatus(Guarded([this] { return Store(); })));
+  Finish(call_.Finish(Guarded([this] { return Store(); })));
 }
 
 void ImportStream::OnDone() {
+  watch_.Forget();
+  core_->import_bytes -= taken_;
   const std::shared_ptr<ImportStream> self = std::move(self_);
   core_->streams.Remove(self);
 }

@@ -10,7 +10,9 @@
 
 #include "absl/status/status.h"
 #include "homing/v1/journey_service.pb.h"
+#include "server/incoming_call.h"
 #include "server/service_core.h"
+#include "server/stream_watch.h"
 
 namespace homing::server {
 
@@ -19,11 +21,16 @@ class ExportStream final : public grpc::ServerWriteReactor<v1::ExportJourneyResp
                            public OpenStream,
                            public std::enable_shared_from_this<ExportStream> {
  public:
-  ExportStream(ServiceCore* core, const std::string& name) : core_(core), name_(name) {}
+  ExportStream(ServiceCore* core, grpc::CallbackServerContext* context, const std::string& name)
+      : core_(core),
+        call_(core, *context, Rpc::kExportJourney),
+        watch_(core, context),
+        name_(name) {}
 
   void Open();
   // A file under way is let finish; the server's own deadline ends it.
   void Drain() override {}
+  void Tick() override;
   void OnWriteDone(bool ok) override;
   void OnDone() override;
 
@@ -32,6 +39,8 @@ class ExportStream final : public grpc::ServerWriteReactor<v1::ExportJourneyResp
   void WriteNext();
 
   ServiceCore* const core_;
+  IncomingCall call_;
+  StreamWatch watch_;
   const std::string name_;
   std::shared_ptr<ExportStream> self_;
   std::string file_;
@@ -43,25 +52,35 @@ class ImportStream final : public grpc::ServerReadReactor<v1::ImportJourneyReque
                            public OpenStream,
                            public std::enable_shared_from_this<ImportStream> {
  public:
-  ImportStream(ServiceCore* core, v1::ImportJourneyResponse* response)
-      : core_(core), response_(response) {}
+  ImportStream(ServiceCore* core, grpc::CallbackServerContext* context,
+               v1::ImportJourneyResponse* response)
+      : core_(core),
+        call_(core, *context, Rpc::kImportJourney),
+        watch_(core, context),
+        response_(response) {}
 
   void Open();
   void Drain() override {}
+  void Tick() override;
   void OnReadDone(bool ok) override;
   void OnDone() override;
 
  private:
   absl::Status Take(const v1::ImportJourneyRequest& request);
+  absl::Status TakeChunk(const std::string& chunk);
   absl::Status Store();
   void Complete();
 
   ServiceCore* const core_;
+  IncomingCall call_;
+  StreamWatch watch_;
   v1::ImportJourneyResponse* const response_;
   std::shared_ptr<ImportStream> self_;
   v1::ImportJourneyRequest request_;
   std::string name_;
   std::string file_;
+  // Of core_->import_bytes.
+  std::int64_t taken_ = 0;
 };
 
 }  // namespace homing::server

@@ -11,9 +11,11 @@
 #include <optional>
 #include <utility>
 
+#include "server/incoming_call.h"
 #include "server/service_core.h"
 #include "server/status_conversion.h"
 #include "server/stream_registry.h"
+#include "server/stream_watch.h"
 
 namespace homing::server {
 
@@ -25,17 +27,23 @@ class BidiStream : public grpc::ServerBidiReactor<Request, Response>,
                    public OpenStream,
                    public std::enable_shared_from_this<BidiStream<Request, Response>> {
  public:
-  explicit BidiStream(ServiceCore* core)
-      : core_(core), strand_(std::make_shared<Strand>(&core->pool)) {}
+  BidiStream(ServiceCore* core, grpc::CallbackServerContext* context, Rpc rpc)
+      : core_(core),
+        call_(core, *context, rpc),
+        watch_(core, context),
+        strand_(std::make_shared<Strand>(&core->pool)) {}
 
   void Open() {
     self_ = this->shared_from_this();
-    const bool admitted = core_->streams.Add(self_);
+    absl::Status admitted = call_.EnterStream();
+    if (!core_->streams.Add(self_)) {
+      admitted = DrainingError();
+    }
     const std::lock_guard lock(mutex_);
-    if (admitted) {
+    if (admitted.ok()) {
       ReadNext();
     } else {
-      end_status_ = DrainingError();
+      end_status_ = admitted;
       FinishIfOver();
     }
   }
@@ -44,7 +52,26 @@ class BidiStream : public grpc::ServerBidiReactor<Request, Response>,
     strand_->Post([self = this->shared_from_this()] { self->HandleDrain(); });
   }
 
+  void Tick() override {
+    if (const absl::Status status = call_.CheckIdentity(); !status.ok()) {
+      End(status);
+    }
+    if (!watch_.IsIdle()) {
+      return;
+    }
+    std::unique_lock lock(mutex_);
+    if (writing_) {
+      // It does not take its answers: nothing that is said would arrive.
+      lock.unlock();
+      watch_.BreakOff();
+    } else if (unanswered_.empty()) {
+      lock.unlock();
+      End(IdleError());
+    }
+  }
+
   void OnReadDone(bool ok) override {
+    watch_.Moved();
     const std::lock_guard lock(mutex_);
     reading_ = false;
     if (!ok) {
@@ -62,6 +89,7 @@ class BidiStream : public grpc::ServerBidiReactor<Request, Response>,
   }
 
   void OnWriteDone(bool ok) override {
+    watch_.Moved();
     const std::lock_guard lock(mutex_);
     writing_ = false;
     writes_.pop_front();
@@ -80,6 +108,7 @@ class BidiStream : public grpc::ServerBidiReactor<Request, Response>,
   }
 
   void OnDone() override {
+    watch_.Forget();
     const std::shared_ptr<BidiStream> self = std::move(self_);
     strand_->Post([self] { self->HandleDone(); });
     core_->streams.Remove(self);
@@ -119,6 +148,7 @@ class BidiStream : public grpc::ServerBidiReactor<Request, Response>,
   }
 
   ServiceCore* core() { return core_; }
+  IncomingCall& call() { return call_; }
 
  private:
   static constexpr std::size_t kReadAhead = 8;
@@ -180,10 +210,12 @@ class BidiStream : public grpc::ServerBidiReactor<Request, Response>,
       return;
     }
     finished_ = true;
-    this->Finish(ToGrpcStatus(end_status_.value_or(absl::OkStatus())));
+    this->Finish(call_.Finish(end_status_.value_or(absl::OkStatus())));
   }
 
   ServiceCore* const core_;
+  IncomingCall call_;
+  StreamWatch watch_;
   const std::shared_ptr<Strand> strand_;
   std::shared_ptr<BidiStream> self_;
 

@@ -5,23 +5,24 @@
 #include <string>
 #include <vector>
 
+#include "server/option_groups.h"
 #include "server/server_options.h"
+#include "server/store_commands.h"
 
 namespace homing::server {
 namespace {
 
 constexpr char kVersion[] = "0.1.0";
+constexpr char kDefaultHttp[] = "127.0.0.1:8080";
 
 void AddOptions(CLI::App* app, ServerOptions* options) {
   app->add_option("--listen", options->listen, "Address and port; port 0 picks one")
       ->envname("HOMING_LISTEN");
   app->add_option("--database", options->database, "sqlite:PATH")->envname("HOMING_DATABASE");
-  app->add_option("--tls-cert", options->tls_cert, "Certificate chain, PEM")
-      ->envname("HOMING_TLS_CERT");
-  app->add_option("--tls-key", options->tls_key, "Its private key, PEM")->envname("HOMING_TLS_KEY");
-  app->add_option("--tls-client-ca", options->tls_client_ca,
-                  "Clients must show a certificate of this CA, PEM")
-      ->envname("HOMING_TLS_CLIENT_CA");
+  app->add_option("--http", options->http, "Address of GET /metrics; \"off\": none")
+      ->envname("HOMING_HTTP");
+  AddAccessOptions(app, options);
+  AddLimitOptions(app, &options->limits);
   app->add_option("--max-message", options->max_message, "Largest message, for example 16MiB")
       ->transform(CLI::AsSizeValue(false))
       ->envname("HOMING_MAX_MESSAGE");
@@ -34,8 +35,18 @@ void AddOptions(CLI::App* app, ServerOptions* options) {
       ->envname("HOMING_WORKERS");
   app->add_option("--drain-ms", options->drain_ms, "Time for streams to end at shutdown, ms")
       ->envname("HOMING_DRAIN_MS");
+  app->add_option("--map-cache", options->map_cache,
+                  "Memory for maps that no one uses, for example 1GiB; 0: no limit")
+      ->transform(CLI::AsSizeValue(false))
+      ->envname("HOMING_MAP_CACHE");
+  app->add_flag("--all-journeys-index", options->all_journeys_index,
+                "Index all journeys, so that matching against all is as fast as against one")
+      ->envname("HOMING_ALL_JOURNEYS_INDEX");
   app->add_flag("--insecure", options->insecure, "Listen off loopback without TLS")
       ->envname("HOMING_INSECURE");
+  app->add_flag("--readonly", options->readonly,
+                "Localise only; the database, which must have been closed well, is not changed")
+      ->envname("HOMING_READONLY");
   app->add_flag("--no-reflection", options->no_reflection, "Do not describe the API to clients")
       ->envname("HOMING_NO_REFLECTION");
 }
@@ -83,6 +94,8 @@ int TellError(const std::string& message) {
 
 ServerCommand ParseCommandLine(int argc, const char* const* argv) {
   ServerCommand command;
+  // Metrics are there unless refused; a port that is taken is then no reason not to serve.
+  command.options.http = kDefaultHttp;
   CLI::App app("Localisation server for robots: records journeys and recognises the way home.",
                "homing-server");
   AddOptions(&app, &command.options);
@@ -96,6 +109,11 @@ ServerCommand ParseCommandLine(int argc, const char* const* argv) {
   health->fallthrough();
   health->add_option("--server", command.health_server, "Address; by default that of --listen");
   health->add_option("--ca", command.health_ca, "CA of the server's certificate, PEM: use TLS");
+  health->add_option("--cert", command.health_cert, "Certificate to show, PEM");
+  health->add_option("--key", command.health_key, "Its private key, PEM");
+  const StoreCommands store(&app, &command);
+  CLI::App* certs = AddCertsCommand(&app, &command.certificates);
+  CLI::App* token = AddTokenCommand(&app, &command.token);
   try {
     app.parse(argc, argv);
     if (!config.empty()) {
@@ -111,10 +129,17 @@ ServerCommand ParseCommandLine(int argc, const char* const* argv) {
     command.exit_code = TellError(config + ": " + std::string(error.description()));
     return command;
   }
-  if (health->parsed()) {
+  command.options.http_optional = app.get_option("--http")->count() == 0;
+  if (certs->parsed()) {
+    command.action = ServerCommand::Action::kCerts;
+  } else if (token->parsed()) {
+    command.action = ServerCommand::Action::kToken;
+  } else if (health->parsed()) {
     command.action = ServerCommand::Action::kHealthCheck;
     command.health_server =
         command.health_server.empty() ? command.options.listen : command.health_server;
+  } else if (store.Choose(&command)) {
+    return command;
   } else if (check_config) {
     command.action = ServerCommand::Action::kCheckConfig;
   }

@@ -31,35 +31,43 @@ absl::Status ListModelPage(const v1::ListDeviationModelsRequest& request, ModelC
 grpc::ServerUnaryReactor* DeviationModelServiceHandler::TrainDeviationModel(
     grpc::CallbackServerContext* context, const v1::TrainDeviationModelRequest* request,
     v1::TrainDeviationModelResponse* response) {
-  return ServeUnary(core_, context, [core = core_, request, response]() -> absl::Status {
-    HOMING_ASSIGN_OR_RETURN(const TrainedModel trained,
-                            core->models.Train(request->model_id(),
-                                               DecodeTraining(request->settings()), WallClockNs()));
-    *response->mutable_model() = EncodeModel(trained.stored);
-    if (request->include_deviations()) {
-      response->mutable_deviations_px()->Assign(trained.deviations_px.begin(),
-                                                trained.deviations_px.end());
-    }
-    return absl::OkStatus();
-  });
+  return ServeUnary(
+      core_, context, Rpc::kTrainDeviationModel, "",
+      [core = core_, request, response](const JourneyFilter& /*all*/) -> absl::Status {
+        HOMING_ASSIGN_OR_RETURN(
+            const TrainedModel trained,
+            core->models.Train(request->model_id(), DecodeTraining(request->settings()),
+                               WallClockNs()));
+        *response->mutable_model() = EncodeModel(trained.stored);
+        if (request->include_deviations()) {
+          response->mutable_deviations_px()->Assign(trained.deviations_px.begin(),
+                                                    trained.deviations_px.end());
+        }
+        return absl::OkStatus();
+      });
 }
 
 grpc::ServerUnaryReactor* DeviationModelServiceHandler::GetDeviationModel(
     grpc::CallbackServerContext* context, const v1::GetDeviationModelRequest* request,
     v1::DeviationModel* response) {
-  return ServeUnary(core_, context, [core = core_, request, response]() -> absl::Status {
-    HOMING_ASSIGN_OR_RETURN(const storage::StoredModel model, core->models.Get(request->name()));
-    *response = EncodeModel(model);
-    return absl::OkStatus();
-  });
+  return ServeUnary(
+      core_, context, Rpc::kGetDeviationModel, "",
+      [core = core_, request, response](const JourneyFilter& /*all*/) -> absl::Status {
+        HOMING_ASSIGN_OR_RETURN(const storage::StoredModel model,
+                                core->models.Get(request->name()));
+        *response = EncodeModel(model);
+        return absl::OkStatus();
+      });
 }
 
 grpc::ServerUnaryReactor* DeviationModelServiceHandler::ListDeviationModels(
     grpc::CallbackServerContext* context, const v1::ListDeviationModelsRequest* request,
     v1::ListDeviationModelsResponse* response) {
-  return ServeUnary(core_, context, [core = core_, request, response]() -> absl::Status {
-    return ListModelPage(*request, &core->models, response);
-  });
+  return ServeUnary(
+      core_, context, Rpc::kListDeviationModels, "",
+      [core = core_, request, response](const JourneyFilter& /*all*/) -> absl::Status {
+        return ListModelPage(*request, &core->models, response);
+      });
 }
 
 }  // namespace homing::server

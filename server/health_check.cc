@@ -7,28 +7,37 @@
 #include <memory>
 #include <sstream>
 
+#include "absl/status/statusor.h"
 #include "absl/strings/str_cat.h"
 #include "grpc/health/v1/health.grpc.pb.h"
+#include "homing/status_macros.h"
 
 namespace homing::server {
 namespace {
 
 constexpr std::chrono::seconds kTimeout{3};
 
+absl::StatusOr<std::string> ReadPem(const char* flag, const std::string& path) {
+  const std::ifstream file(path, std::ios::binary);
+  std::ostringstream text;
+  text << file.rdbuf();
+  if (!path.empty() && !file) {
+    return absl::InvalidArgumentError(
+        absl::StrCat(flag, " is \"", path, "\"; the file cannot be read"));
+  }
+  return text.str();
+}
+
 }  // namespace
 
-absl::Status CheckHealth(const std::string& address, const std::string& ca_file) {
+absl::Status CheckHealth(const std::string& address, const std::string& ca_file,
+                         const std::string& cert_file, const std::string& key_file) {
   std::shared_ptr<grpc::ChannelCredentials> credentials = grpc::InsecureChannelCredentials();
   if (!ca_file.empty()) {
-    const std::ifstream file(ca_file, std::ios::binary);
-    std::ostringstream text;
-    text << file.rdbuf();
-    if (!file) {
-      return absl::InvalidArgumentError(
-          absl::StrCat("ca is \"", ca_file, "\"; the file cannot be read"));
-    }
     grpc::SslCredentialsOptions tls;
-    tls.pem_root_certs = text.str();
+    HOMING_ASSIGN_OR_RETURN(tls.pem_root_certs, ReadPem("ca", ca_file));
+    HOMING_ASSIGN_OR_RETURN(tls.pem_cert_chain, ReadPem("cert", cert_file));
+    HOMING_ASSIGN_OR_RETURN(tls.pem_private_key, ReadPem("key", key_file));
     credentials = grpc::SslCredentials(tls);
   }
   const auto stub = grpc::health::v1::Health::NewStub(grpc::CreateChannel(address, credentials));

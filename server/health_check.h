@@ -10,7 +10,8 @@ namespace homing::server {
 
 // OK: it serves. `ca_file`: CA of its certificate, PEM; empty: no TLS. UNAVAILABLE, and what
 // reading the file says.
-absl::Status CheckHealth(const std::string& address, const std::string& ca_file);
+absl::Status CheckHealth(const std::string& address, const std::string& ca_file,
+                         const std::string& cert_file = "", const std::string& key_file = "");
 
 }  // namespace homing::server
 

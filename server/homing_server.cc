@@ -4,26 +4,29 @@
 #include <grpcpp/grpcpp.h>
 #include <grpcpp/health_check_service_interface.h>
 #include <grpcpp/impl/server_builder_option.h>
+#include <grpcpp/resource_quota.h>
+#include <spdlog/spdlog.h>
 
 #include <chrono>
-#include <fstream>
-#include <sstream>
+#include <string>
 #include <thread>
 #include <utility>
 #include <vector>
 
 #include "absl/strings/str_cat.h"
 #include "homing/status_macros.h"
+#include "server/core_gauges.h"
 #include "server/deviation_model_service.h"
 #include "server/homing_service.h"
+#include "server/housekeeping.h"
 #include "server/journey_service.h"
+#include "server/metrics_endpoint.h"
+#include "server/store_watch.h"
+#include "server/tls_credentials.h"
 
 namespace homing::server {
 namespace {
 
-// Robots behind radio links: a dead one is found within half a minute.
-constexpr int kKeepaliveMs = 20'000;
-constexpr int kKeepaliveTimeoutMs = 10'000;
 // Clients may ping as often as this.
 constexpr int kMinPingIntervalMs = 5'000;
 
@@ -37,40 +40,15 @@ class WithoutReflection : public grpc::ServerBuilderOption {
   }
 };
 
-absl::StatusOr<std::string> ReadFile(const std::string& flag, const std::string& path) {
-  const std::ifstream file(path, std::ios::binary);
-  std::ostringstream text;
-  text << file.rdbuf();
-  if (!file) {
-    return absl::InvalidArgumentError(
-        absl::StrCat(flag, " is \"", path, "\"; the file cannot be read"));
-  }
-  return text.str();
-}
-
-absl::StatusOr<std::shared_ptr<grpc::ServerCredentials>> CredentialsOf(
-    const ServerOptions& options) {
-  if (options.tls_cert.empty()) {
-    return grpc::InsecureServerCredentials();
-  }
-  grpc::SslServerCredentialsOptions tls;
-  grpc::SslServerCredentialsOptions::PemKeyCertPair pair;
-  HOMING_ASSIGN_OR_RETURN(pair.cert_chain, ReadFile("tls-cert", options.tls_cert));
-  HOMING_ASSIGN_OR_RETURN(pair.private_key, ReadFile("tls-key", options.tls_key));
-  tls.pem_key_cert_pairs.push_back(pair);
-  if (!options.tls_client_ca.empty()) {
-    HOMING_ASSIGN_OR_RETURN(tls.pem_root_certs, ReadFile("tls-client-ca", options.tls_client_ca));
-    tls.client_certificate_request = GRPC_SSL_REQUEST_AND_REQUIRE_CLIENT_CERTIFICATE_AND_VERIFY;
-  }
-  return grpc::SslServerCredentials(tls);
-}
-
 CoreOptions CoreOptionsOf(const ServerOptions& options, std::function<TimePoint()> clock) {
   CoreOptions core;
   const int cores = static_cast<int>(std::thread::hardware_concurrency());
   core.workers = options.workers > 0 ? options.workers : std::max(cores, 1);
   core.decode.max_pixels = options.max_pixels;
   core.wire.max_vectors = options.max_vectors;
+  core.catalog.cache_bytes = options.map_cache;
+  core.all_journeys_index = options.all_journeys_index;
+  core.limits = options.limits;
   if (clock) {
     core.clock = std::move(clock);
   }
@@ -81,11 +59,17 @@ void Configure(const ServerOptions& options, grpc::ServerBuilder* builder) {
   builder->SetMaxReceiveMessageSize(static_cast<int>(options.max_message));
   // A second server on the same port must fail, not share it silently.
   builder->AddChannelArgument(GRPC_ARG_ALLOW_REUSEPORT, 0);
-  builder->AddChannelArgument(GRPC_ARG_KEEPALIVE_TIME_MS, kKeepaliveMs);
-  builder->AddChannelArgument(GRPC_ARG_KEEPALIVE_TIMEOUT_MS, kKeepaliveTimeoutMs);
+  // Robots behind radio links: a dead one is found soon.
+  builder->AddChannelArgument(GRPC_ARG_KEEPALIVE_TIME_MS, options.limits.keepalive_s * 1000);
+  builder->AddChannelArgument(GRPC_ARG_KEEPALIVE_TIMEOUT_MS, options.limits.keepalive_s * 500);
   builder->AddChannelArgument(GRPC_ARG_HTTP2_MIN_RECV_PING_INTERVAL_WITHOUT_DATA_MS,
                               kMinPingIntervalMs);
   builder->AddChannelArgument(GRPC_ARG_KEEPALIVE_PERMIT_WITHOUT_CALLS, 1);
+  if (options.limits.memory_quota > 0) {
+    grpc::ResourceQuota quota("homing");
+    quota.Resize(static_cast<std::size_t>(options.limits.memory_quota));
+    builder->SetResourceQuota(quota);
+  }
   if (options.no_reflection) {
     builder->SetOption(std::make_unique<WithoutReflection>());
   }
@@ -94,13 +78,15 @@ void Configure(const ServerOptions& options, grpc::ServerBuilder* builder) {
 }  // namespace
 
 struct HomingServer::State {
-  State(std::unique_ptr<storage::JourneyStore> store, const CoreOptions& options)
-      : core(std::make_unique<ServiceCore>(std::move(store), options)),
+  State(std::unique_ptr<storage::JourneyStore> store, std::shared_ptr<AccessControl> access,
+        const CoreOptions& options)
+      : core(std::make_unique<ServiceCore>(std::move(store), std::move(access), options)),
         journeys(core.get()),
         homing(core.get()),
         models(core.get()) {}
 
   absl::Status Listen(const ServerOptions& options);
+  absl::Status ServeMetrics(const ServerOptions& options);
 
   // Outlived by nothing but the handlers' last steps: reset when drained.
   std::unique_ptr<ServiceCore> core;
@@ -108,12 +94,16 @@ struct HomingServer::State {
   HomingServiceHandler homing;
   DeviationModelServiceHandler models;
   std::unique_ptr<grpc::Server> server;
+  // Ends before the server whose health it sets.
+  std::unique_ptr<StoreWatch> watch;
+  std::unique_ptr<MetricsEndpoint> metrics;
+  std::unique_ptr<Housekeeping> housekeeping;
   std::string address;
   std::chrono::milliseconds drain_time{};
 };
 
 absl::Status HomingServer::State::Listen(const ServerOptions& options) {
-  HOMING_ASSIGN_OR_RETURN(const auto credentials, CredentialsOf(options));
+  HOMING_ASSIGN_OR_RETURN(const auto credentials, MakeServerCredentials(options, core->access));
   grpc::EnableDefaultHealthCheckService(true);
   grpc::reflection::InitProtoReflectionServerBuilderPlugin();
   grpc::ServerBuilder builder;
@@ -134,6 +124,25 @@ absl::Status HomingServer::State::Listen(const ServerOptions& options) {
                 ? options.listen
                 : absl::StrCat(options.listen.substr(0, options.listen.rfind(':')), ":", port);
   drain_time = std::chrono::milliseconds(options.drain_ms);
+  watch = std::make_unique<StoreWatch>(core->store.get(), [this](bool well) {
+    if (auto* health = server->GetHealthCheckService()) {
+      health->SetServingStatus(well);
+    }
+  });
+  return absl::OkStatus();
+}
+
+absl::Status HomingServer::State::ServeMetrics(const ServerOptions& options) {
+  if (!HasHttp(options)) {
+    return absl::OkStatus();
+  }
+  absl::StatusOr<std::unique_ptr<MetricsEndpoint>> started =
+      MetricsEndpoint::Start(options.http, *core->metrics);
+  if (!started.ok() && options.http_optional) {
+    spdlog::warn("no metrics: {}", std::string(started.status().message()));
+    return absl::OkStatus();
+  }
+  HOMING_ASSIGN_OR_RETURN(metrics, std::move(started));
   return absl::OkStatus();
 }
 
@@ -143,14 +152,32 @@ HomingServer::~HomingServer() { Drain(); }
 
 const std::string& HomingServer::address() const { return state_->address; }
 
+std::string HomingServer::metrics_address() const {
+  return state_->metrics ? state_->metrics->address() : "";
+}
+
+std::string HomingServer::MetricsText() const {
+  return state_->core ? state_->core->metrics->Text() : "";
+}
+
 absl::StatusOr<std::unique_ptr<HomingServer>> HomingServer::Start(
     const ServerOptions& options, std::function<TimePoint()> clock) {
   HOMING_RETURN_IF_ERROR(Validate(options));
+  HOMING_ASSIGN_OR_RETURN(auto access,
+                          AccessControl::Open({options.tokens, options.roles, options.tls_client_ca,
+                                               options.tls_crl_dir}));
   storage::StoreOptions store_options;
   store_options.url = options.database;
+  store_options.read_only = options.readonly;
+  store_options.max_bytes = options.limits.max_database;
   HOMING_ASSIGN_OR_RETURN(auto store, storage::OpenJourneyStore(store_options));
-  auto state = std::make_unique<State>(std::move(store), CoreOptionsOf(options, std::move(clock)));
+  auto state = std::make_unique<State>(std::move(store), std::move(access),
+                                       CoreOptionsOf(options, std::move(clock)));
+  AddCoreGauges(options, state->core.get());
+  HOMING_RETURN_IF_ERROR(state->ServeMetrics(options));
   HOMING_RETURN_IF_ERROR(state->Listen(options));
+  state->housekeeping =
+      std::make_unique<Housekeeping>(state->core.get(), std::chrono::seconds(options.reload_s));
   return std::unique_ptr<HomingServer>(new HomingServer(std::move(state)));
 }
 
@@ -158,6 +185,8 @@ void HomingServer::Drain() {
   if (!state_->core) {
     return;
   }
+  state_->watch.reset();
+  state_->housekeeping.reset();
   if (auto* health = state_->server->GetHealthCheckService()) {
     health->SetServingStatus(false);
   }
@@ -166,6 +195,7 @@ void HomingServer::Drain() {
   state_->server->Wait();
   state_->core->streams.AwaitNone();
   state_->server.reset();
+  state_->metrics.reset();
   state_->core.reset();
 }
 

@@ -23,6 +23,10 @@ class HomingServer {
 
   // "host:port", with the port that was picked.
   const std::string& address() const;
+  // "host:port" of GET /metrics; empty: there is none.
+  std::string metrics_address() const;
+  // What GET /metrics answers; empty once drained.
+  std::string MetricsText() const;
   // Health says NOT_SERVING, streams end with UNAVAILABLE, what waits for the disk is written, the
   // store is closed. Idempotent.
   void Drain();

@@ -10,19 +10,22 @@ namespace homing::server {
 grpc::ServerUnaryReactor* HomingServiceHandler::MatchLandmarks(
     grpc::CallbackServerContext* context, const v1::MatchLandmarksRequest* request,
     v1::MatchLandmarksResponse* response) {
-  return ServeUnary(core_, context, [core = core_, request, response]() -> absl::Status {
-    HOMING_ASSIGN_OR_RETURN(const LandmarkQuery query,
-                            DecodeLandmarkQuery(*request, core->options.wire));
-    HOMING_ASSIGN_OR_RETURN(const LandmarkQueryResult result,
-                            server::MatchLandmarks(&core->catalog, query, core->options.decode));
-    *response = EncodeQueryResult(result);
-    return absl::OkStatus();
-  });
+  return ServeUnary(core_, context, Rpc::kMatchLandmarks, request->journey(),
+                    [core = core_, request, response](const JourneyFilter& filter) -> absl::Status {
+                      HOMING_ASSIGN_OR_RETURN(LandmarkQuery query,
+                                              DecodeLandmarkQuery(*request, core->options.wire));
+                      query.filter = filter;
+                      HOMING_ASSIGN_OR_RETURN(
+                          const LandmarkQueryResult result,
+                          server::MatchLandmarks(&core->catalog, query, core->options.decode));
+                      *response = EncodeQueryResult(result);
+                      return absl::OkStatus();
+                    });
 }
 
 grpc::ServerBidiReactor<v1::LocalizeRequest, v1::LocalizeResponse>* HomingServiceHandler::Localize(
-    grpc::CallbackServerContext* /*context*/) {
-  const auto stream = std::make_shared<LocalizeStream>(core_);
+    grpc::CallbackServerContext* context) {
+  const auto stream = std::make_shared<LocalizeStream>(core_, context);
   stream->Open();
   return stream.get();
 }

@@ -101,14 +101,14 @@ absl::StatusOr<storage::JourneyRecord> DecodeCreateJourney(const v1::CreateJourn
 }
 
 absl::Status ListJourneyPage(const v1::ListJourneysRequest& request, JourneyCatalog* catalog,
-                             v1::ListJourneysResponse* response) {
+                             const JourneyFilter& filter, v1::ListJourneysResponse* response) {
   HOMING_ASSIGN_OR_RETURN(const std::string robot,
                           ParseRobotName(request.parent(), "parent", true));
   HOMING_ASSIGN_OR_RETURN(const int size, DecodePageSize(request.page_size()));
   HOMING_ASSIGN_OR_RETURN(const std::string after,
                           DecodePageToken(request.parent(), request.page_token()));
   HOMING_ASSIGN_OR_RETURN(std::vector<storage::JourneyRecord> records,
-                          catalog->List(robot, after, size + 1));
+                          catalog->List(robot, after, size + 1, filter));
   if (records.size() > static_cast<std::size_t>(size)) {
     records.pop_back();
     response->set_next_page_token(EncodePageToken(request.parent(), records.back().name));

@@ -20,7 +20,7 @@ absl::StatusOr<storage::JourneyRecord> DecodeCreateJourney(const v1::CreateJourn
 
 // INVALID_ARGUMENT.
 absl::Status ListJourneyPage(const v1::ListJourneysRequest& request, JourneyCatalog* catalog,
-                             v1::ListJourneysResponse* response);
+                             const JourneyFilter& filter, v1::ListJourneysResponse* response);
 
 // INVALID_ARGUMENT, NOT_FOUND.
 absl::Status DescribeAliasing(const v1::AnalyzeAliasingRequest& request, JourneyCatalog* catalog,

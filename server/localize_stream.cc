@@ -21,7 +21,9 @@ absl::Status LocalizeStream::Begin(const v1::LocalizeConfig& config) {
   if (session_) {
     return absl::InvalidArgumentError("config came twice; only the first message is config");
   }
-  HOMING_ASSIGN_OR_RETURN(const HomingQuery query, DecodeHomingQuery(config));
+  HOMING_RETURN_IF_ERROR(call().Authorize(config.journey()));
+  HOMING_ASSIGN_OR_RETURN(HomingQuery query, DecodeHomingQuery(config));
+  query.filter = call().filter();
   HOMING_ASSIGN_OR_RETURN(session_,
                           HomingSession::Open(&core()->catalog, query, core()->options.decode));
   NoAnswer();
@@ -32,9 +34,13 @@ absl::Status LocalizeStream::Localize(const v1::Observation& observation) {
   if (!session_) {
     return absl::InvalidArgumentError("observation came first; the first message must be config");
   }
+  HOMING_RETURN_IF_ERROR(call().TakeObservation());
+  const TimePoint begin = std::chrono::steady_clock::now();
   HOMING_ASSIGN_OR_RETURN(const Observation decoded,
                           wire::FromProto(observation, core()->options.wire));
   HOMING_ASSIGN_OR_RETURN(const Localization localization, session_->Localize(decoded));
+  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin;
+  core()->metrics->ObservationLocalized(localization.position.outcome, elapsed.count());
   Answer(EncodeLocalization(localization, *session_));
   return absl::OkStatus();
 }

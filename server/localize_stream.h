@@ -12,7 +12,8 @@ namespace homing::server {
 
 class LocalizeStream final : public BidiStream<v1::LocalizeRequest, v1::LocalizeResponse> {
  public:
-  explicit LocalizeStream(ServiceCore* core) : BidiStream(core) {}
+  LocalizeStream(ServiceCore* core, grpc::CallbackServerContext* context)
+      : BidiStream(core, context, Rpc::kLocalize) {}
 
  protected:
   absl::Status Handle(const v1::LocalizeRequest& request) override;

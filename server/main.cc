@@ -3,13 +3,16 @@
 #include <cstdio>
 #include <iostream>
 #include <memory>
+#include <string>
 
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 
+#include "server/access_commands.h"
 #include "server/health_check.h"
 #include "server/homing_server.h"
 #include "server/server_options.h"
+#include "server/store_commands.h"
 
 namespace {
 
@@ -40,7 +43,12 @@ int Serve(const homing::server::ServerOptions& options) {
   if (!server.ok()) {
     return Tell(server.status());
   }
-  std::cout << "listening on " << (*server)->address() << std::endl;
+  // One write: who reads only the first line may close the pipe.
+  std::string lines = "listening on " + (*server)->address() + "\n";
+  if (!(*server)->metrics_address().empty()) {
+    lines += "metrics on http://" + (*server)->metrics_address() + "/metrics\n";
+  }
+  std::cout << lines << std::flush;
   int signal = 0;
   sigwait(&signals, &signal);
   spdlog::info("signal {}: draining", signal);
@@ -58,12 +66,21 @@ int main(int argc, char** argv) {
     case ServerCommand::Action::kExit:
       return command.exit_code;
     case ServerCommand::Action::kHealthCheck:
-      return Tell(homing::server::CheckHealth(command.health_server, command.health_ca));
+      return Tell(homing::server::CheckHealth(command.health_server, command.health_ca,
+                                              command.health_cert, command.health_key));
+    case ServerCommand::Action::kCerts:
+      return Tell(homing::server::RunCerts(command.certificates));
+    case ServerCommand::Action::kToken:
+      return Tell(homing::server::RunToken(command.token, command.options.tokens));
     case ServerCommand::Action::kCheckConfig: {
       const int result = Tell(homing::server::Validate(command.options));
       std::cout << (result == 0 ? homing::server::ToToml(command.options) : "");
       return result;
     }
+    case ServerCommand::Action::kDoctor:
+      return homing::server::RunDoctor(command.store_path, command.target_path);
+    case ServerCommand::Action::kBackup:
+      return homing::server::RunBackup(command.store_path, command.target_path);
     case ServerCommand::Action::kServe:
       return Serve(command.options);
   }

@@ -8,6 +8,12 @@
 #include "server/message_conversion.h"
 
 namespace homing::server {
+namespace {
+
+// How often a stream asks whether its robot still has room: it may go over by as many.
+constexpr std::int64_t kQuotaEvery = 256;
+
+}  // namespace
 
 absl::Status RecordStream::Handle(const v1::RecordJourneyRequest& request) {
   switch (request.request_case()) {
@@ -25,6 +31,9 @@ absl::Status RecordStream::Begin(const v1::RecordingConfig& config) {
   if (session_) {
     return absl::InvalidArgumentError("config came twice; only the first message is config");
   }
+  HOMING_RETURN_IF_ERROR(call().Authorize(config.journey()));
+  HOMING_RETURN_IF_ERROR(core()->quota.CheckGrowth(config.journey()));
+  journey_ = config.journey();
   const std::weak_ptr<BidiStream> weak = weak_from_this();
   RecordingListener listener;
   listener.answer = [weak](const RecordingAnswer& answer) {
@@ -47,6 +56,10 @@ absl::Status RecordStream::Record(const v1::Observation& observation) {
   if (!session_) {
     return absl::InvalidArgumentError("observation came first; the first message must be config");
   }
+  if (const absl::Status status = CheckLimits(); !status.ok()) {
+    session_->Reject(status);
+    return absl::OkStatus();
+  }
   const auto decoded = wire::FromProto(observation, core()->options.wire);
   if (decoded.ok()) {
     session_->Record(*decoded, core()->options.clock());
@@ -55,6 +68,12 @@ absl::Status RecordStream::Record(const v1::Observation& observation) {
         Within(absl::StrCat("observation[", observation.sequence(), "]"), decoded.status()));
   }
   return absl::OkStatus();
+}
+
+absl::Status RecordStream::CheckLimits() {
+  HOMING_RETURN_IF_ERROR(call().TakeObservation());
+  return ++observations_ % kQuotaEvery == 0 ? core()->quota.CheckGrowth(journey_)
+                                            : absl::OkStatus();
 }
 
 void RecordStream::HandleDrain() {

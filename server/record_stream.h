@@ -2,7 +2,9 @@
 #ifndef SERVER_RECORD_STREAM_H_
 #define SERVER_RECORD_STREAM_H_
 
+#include <cstdint>
 #include <memory>
+#include <string>
 
 #include "homing/v1/journey_service.pb.h"
 #include "server/bidi_stream.h"
@@ -11,7 +13,8 @@ namespace homing::server {
 
 class RecordStream final : public BidiStream<v1::RecordJourneyRequest, v1::RecordJourneyResponse> {
  public:
-  explicit RecordStream(ServiceCore* core) : BidiStream(core) {}
+  RecordStream(ServiceCore* core, grpc::CallbackServerContext* context)
+      : BidiStream(core, context, Rpc::kRecordJourney) {}
 
  protected:
   absl::Status Handle(const v1::RecordJourneyRequest& request) override;
@@ -21,8 +24,11 @@ class RecordStream final : public BidiStream<v1::RecordJourneyRequest, v1::Recor
  private:
   absl::Status Begin(const v1::RecordingConfig& config);
   absl::Status Record(const v1::Observation& observation);
+  absl::Status CheckLimits();
 
   std::shared_ptr<RecordingSession> session_;
+  std::string journey_;
+  std::int64_t observations_ = 0;
 };
 
 }  // namespace homing::server

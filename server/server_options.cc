@@ -4,6 +4,7 @@
 #include "absl/strings/str_cat.h"
 #include "homing/range_check.h"
 #include "homing/status_macros.h"
+#include "server/option_groups.h"
 
 namespace homing::server {
 namespace {
@@ -34,12 +35,24 @@ absl::Status Validate(const ServerOptions& options) {
       CheckRange<std::int64_t>("max-pixels", options.max_pixels, 256, 268'435'456));
   HOMING_RETURN_IF_ERROR(CheckRange("max-vectors", options.max_vectors, 1, 10'000'000));
   HOMING_RETURN_IF_ERROR(CheckRange("workers", options.workers, 0, 1024));
+  HOMING_RETURN_IF_ERROR(
+      CheckRange<std::int64_t>("map-cache", options.map_cache, 0, std::int64_t{1} << 50));
   HOMING_RETURN_IF_ERROR(CheckRange("drain-ms", options.drain_ms, 0, 600'000));
   if (options.tls_cert.empty() != options.tls_key.empty()) {
     return absl::InvalidArgumentError("tls-cert and tls-key must be given together");
   }
   if (!options.tls_client_ca.empty() && options.tls_cert.empty()) {
     return absl::InvalidArgumentError("tls-client-ca needs tls-cert and tls-key");
+  }
+  if (!options.tls_crl_dir.empty() && options.tls_client_ca.empty()) {
+    return absl::InvalidArgumentError("tls-crl-dir needs tls-client-ca");
+  }
+  HOMING_RETURN_IF_ERROR(CheckRange("reload-s", options.reload_s, 1, 3600));
+  HOMING_RETURN_IF_ERROR(Validate(options.limits));
+  if (HasHttp(options) && !options.insecure && !IsLoopback(options.http)) {
+    return absl::InvalidArgumentError(
+        absl::StrCat("http is \"", options.http,
+                     "\"; it has no TLS, so that off loopback insecure is required"));
   }
   if (options.tls_cert.empty() && !options.insecure && !IsLoopback(options.listen)) {
     return absl::InvalidArgumentError(
@@ -60,11 +73,14 @@ std::string ToToml(const ServerOptions& options) {
     return absl::StrCat(key, " = ", value ? "true" : "false", "\n");
   };
   return text("listen", options.listen) + text("database", options.database) +
-         text("tls-cert", options.tls_cert) + text("tls-key", options.tls_key) +
-         text("tls-client-ca", options.tls_client_ca) + number("max-message", options.max_message) +
+         text("http", HasHttp(options) ? options.http : "off") + AccessToToml(options) +
+         LimitsToToml(options.limits) + number("max-message", options.max_message) +
          number("max-pixels", options.max_pixels) + number("max-vectors", options.max_vectors) +
          number("workers", options.workers) + number("drain-ms", options.drain_ms) +
-         flag("insecure", options.insecure) + flag("no-reflection", options.no_reflection);
+         number("map-cache", options.map_cache) +
+         flag("all-journeys-index", options.all_journeys_index) +
+         flag("insecure", options.insecure) + flag("readonly", options.readonly) +
+         flag("no-reflection", options.no_reflection);
 }
 
 }  // namespace homing::server

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "absl/strings/escaping.h"
+#include "absl/strings/numbers.h"
 #include "absl/strings/str_cat.h"
 #include "google/rpc/error_details.pb.h"
 #include "server/session/error_reason.h"
@@ -15,7 +16,7 @@ namespace homing::server {
 namespace {
 
 constexpr std::size_t kMaxMessage = 1000;
-constexpr int kRetryAfterSeconds = 1;
+constexpr std::int64_t kDefaultRetryMs = 1000;
 
 bool IsHidden(absl::StatusCode code) {
   return code == absl::StatusCode::kInternal || code == absl::StatusCode::kUnknown;
@@ -44,9 +45,16 @@ void AddErrorInfo(const absl::Status& status, google::rpc::Status* details) {
   details->add_details()->PackFrom(info);
 }
 
-void AddRetryInfo(google::rpc::Status* details) {
+void AddRetryInfo(const absl::Status& status, google::rpc::Status* details) {
+  const ErrorReason reason = ReasonOf(status);
+  const auto said = reason.metadata.find(kRetryAfterMs);
+  std::int64_t ms = kDefaultRetryMs;
+  if (said == reason.metadata.end() || !absl::SimpleAtoi(said->second, &ms)) {
+    ms = kDefaultRetryMs;
+  }
   google::rpc::RetryInfo retry;
-  retry.mutable_retry_delay()->set_seconds(kRetryAfterSeconds);
+  retry.mutable_retry_delay()->set_seconds(ms / 1000);
+  retry.mutable_retry_delay()->set_nanos(static_cast<std::int32_t>(ms % 1000 * 1'000'000));
   details->add_details()->PackFrom(retry);
 }
 
@@ -82,7 +90,7 @@ grpc::Status ToGrpcStatus(const absl::Status& status) {
   details.set_message(MessageOf(status));
   AddErrorInfo(status, &details);
   if (absl::IsResourceExhausted(status) || absl::IsUnavailable(status)) {
-    AddRetryInfo(&details);
+    AddRetryInfo(status, &details);
   }
   if (absl::IsInvalidArgument(status)) {
     AddBadRequest(details.message(), &details);
@@ -105,6 +113,11 @@ absl::Status Guarded(const std::function<absl::Status()>& call) {
 
 absl::Status DrainingError() {
   return WithReason(absl::UnavailableError("the server is shutting down"), {"DRAINING", {}});
+}
+
+absl::Status IdleError() {
+  return WithReason(absl::UnavailableError("nothing came on the stream for too long"),
+                    {"IDLE", {}});
 }
 
 absl::Status BusyError() {

@@ -20,6 +20,7 @@ absl::Status Guarded(const std::function<absl::Status()>& call);
 
 absl::Status DrainingError();
 absl::Status BusyError();
+absl::Status IdleError();
 
 }  // namespace homing::server
 

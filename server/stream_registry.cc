@@ -28,6 +28,17 @@ void StreamRegistry::Drain() {
   }
 }
 
+void StreamRegistry::Tick() {
+  std::set<std::shared_ptr<OpenStream>> streams;
+  {
+    const std::lock_guard lock(mutex_);
+    streams = streams_;
+  }
+  for (const std::shared_ptr<OpenStream>& stream : streams) {
+    stream->Tick();
+  }
+}
+
 void StreamRegistry::AwaitNone() {
   std::unique_lock lock(mutex_);
   removed_.wait(lock, [this] { return streams_.empty(); });

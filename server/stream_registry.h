@@ -14,6 +14,8 @@ class OpenStream {
   virtual ~OpenStream() = default;
   // Ends the stream with UNAVAILABLE, once what is on its way to the disk is answered.
   virtual void Drain() = 0;
+  // Now and then: ends the stream if its caller is known no more, or if nothing moved for too long.
+  virtual void Tick() = 0;
 };
 
 // Thread-safe.
@@ -25,6 +27,8 @@ class StreamRegistry {
   // No stream is added from now on; those that are there are told.
   void Drain();
   bool draining() const;
+  // Tells every stream.
+  void Tick();
   // Until every stream was removed.
   void AwaitNone();
 

@@ -4,25 +4,39 @@
 
 #include <grpcpp/support/server_callback.h>
 
+#include <memory>
+#include <string>
 #include <utility>
 
+#include "server/incoming_call.h"
 #include "server/service_core.h"
 #include "server/status_conversion.h"
 
 namespace homing::server {
 
-// `call` is absl::Status(); it may use the request and the response of the RPC, which outlive it.
+// `call` is absl::Status(const JourneyFilter&), made only if the caller may do this to `resource`;
+// it may use the request and the response of the RPC, which outlive it. Of a pattern it must take
+// what the filter lets through.
 template <typename Call>
 grpc::ServerUnaryReactor* ServeUnary(ServiceCore* core, grpc::CallbackServerContext* context,
-                                     Call call) {
+                                     Rpc rpc, const std::string& resource, Call call) {
   grpc::ServerUnaryReactor* reactor = context->DefaultReactor();
+  const auto incoming = std::make_shared<IncomingCall>(core, *context, rpc);
+  absl::Status admitted = incoming->identified();
   if (core->streams.draining()) {
-    reactor->Finish(ToGrpcStatus(DrainingError()));
-  } else if (!core->pool.TryRun([reactor, call = std::move(call)] {
-               reactor->Finish(ToGrpcStatus(Guarded(call)));
+    admitted = DrainingError();
+  } else if (admitted.ok() &&
+             core->pool.TryRun([reactor, incoming, resource, call = std::move(call)] {
+               reactor->Finish(incoming->Finish(Guarded([&] {
+                 const absl::Status allowed = incoming->Authorize(resource);
+                 return allowed.ok() ? call(incoming->filter()) : allowed;
+               })));
              })) {
-    reactor->Finish(ToGrpcStatus(BusyError()));
+    return reactor;
+  } else if (admitted.ok()) {
+    admitted = BusyError();
   }
+  reactor->Finish(incoming->Finish(admitted));
   return reactor;
 }
 

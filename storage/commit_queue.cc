@@ -69,6 +69,11 @@ CommitQueue::~CommitQueue() {
   state_->thread.join();
 }
 
+std::size_t CommitQueue::waiting() const {
+  std::lock_guard lock(state_->mutex);
+  return state_->appends.size();
+}
+
 absl::Status CommitQueue::Submit(JourneyAppend append, Done done) {
   {
     std::lock_guard lock(state_->mutex);

@@ -29,6 +29,8 @@ class CommitQueue {
 
   // RESOURCE_EXHAUSTED when full (`done` is then not called).
   absl::Status Submit(JourneyAppend append, Done done);
+  // Appends that wait for their transaction to begin.
+  std::size_t waiting() const;
 
  private:
   struct State;

@@ -2,12 +2,37 @@
 
 #include <sqlite3.h>
 
+#include <filesystem>
 #include <new>
 
+#include "absl/strings/str_format.h"
 #include "storage/sqlite_status.h"
 
 namespace homing::storage {
 namespace {
+
+int FlagsOf(Connection::Access access) {
+  switch (access) {
+    case Connection::Access::kReadOnly:
+      return SQLite::OPEN_READONLY;
+    case Connection::Access::kImmutable:
+      return SQLite::OPEN_READONLY | SQLite::OPEN_URI;
+    case Connection::Access::kReadWrite:
+      break;
+  }
+  return SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE;
+}
+
+// As a URI, with what has a meaning there escaped.
+std::string ImmutableUri(const std::string& path) {
+  std::string uri = path.rfind('/', 0) == 0 ? "file://" : "file:";
+  for (const char c : path) {
+    const bool plain = c != '%' && c != '?' && c != '#' && c >= ' ' && c <= '~';
+    uri += plain ? std::string(1, c)
+                 : absl::StrFormat("%%%02X", static_cast<unsigned>(static_cast<unsigned char>(c)));
+  }
+  return uri + "?immutable=1";
+}
 
 // Runs `body`; what SQLiteCpp throws becomes the status.
 absl::Status Guard(const Connection::Body& body) {
@@ -24,12 +49,11 @@ absl::Status Guard(const Connection::Body& body) {
 
 absl::StatusOr<std::unique_ptr<Connection>> Connection::Open(const std::string& path, Access access,
                                                              int busy_timeout_ms) {
-  const int flags = SQLite::OPEN_NOMUTEX |
-                    (access == Access::kReadOnly ? SQLite::OPEN_READONLY
-                                                 : SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
+  const int flags = SQLite::OPEN_NOMUTEX | FlagsOf(access);
+  const std::string file = access == Access::kImmutable ? ImmutableUri(path) : path;
   std::unique_ptr<Connection> connection;
   absl::Status status = Guard([&] {
-    connection.reset(new Connection(path, flags, busy_timeout_ms));
+    connection.reset(new Connection(file, flags, busy_timeout_ms));
     connection->Execute("PRAGMA foreign_keys=ON");
     return absl::OkStatus();
   });
@@ -59,6 +83,20 @@ SQLite::Statement& Connection::Prepared(const char* sql) {
   std::unique_ptr<SQLite::Statement>& statement = statements_[sql];
   if (!statement) statement = std::make_unique<SQLite::Statement>(database_, sql);
   return *statement;
+}
+
+bool HasLog(const std::string& path) {
+  std::error_code error;
+  const auto size = std::filesystem::file_size(path + "-wal", error);
+  return !error && size > 0;
+}
+
+absl::StatusOr<std::unique_ptr<Connection>> OpenForReading(const std::string& path,
+                                                           int busy_timeout_ms) {
+  std::error_code error;
+  const bool used = std::filesystem::exists(path + "-wal", error);
+  return Connection::Open(
+      path, used ? Connection::Access::kReadOnly : Connection::Access::kImmutable, busy_timeout_ms);
 }
 
 }  // namespace homing::storage

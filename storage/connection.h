@@ -51,7 +51,9 @@ class Connection {
  public:
   using Body = std::function<absl::Status()>;
 
-  enum class Access { kReadWrite, kReadOnly };
+  // kImmutable: read-only, and nothing else changes the file meanwhile: no lock, no log, no file
+  // beside it.
+  enum class Access { kReadWrite, kReadOnly, kImmutable };
   static absl::StatusOr<std::unique_ptr<Connection>> Open(const std::string& path, Access access,
                                                           int busy_timeout_ms);
 
@@ -76,6 +78,10 @@ class Connection {
   std::int64_t Integer(const std::string& sql) { return database_.execAndGet(sql).getInt64(); }
   std::string Text(const std::string& sql) { return database_.execAndGet(sql).getString(); }
 
+  // Rows changed since it was opened.
+  int changes() const { return database_.getTotalChanges(); }
+  SQLite::Database& database() { return database_; }
+
  private:
   Connection(const std::string& path, int flags, int busy_timeout_ms)
       : database_(path, flags, busy_timeout_ms) {}
@@ -86,6 +92,14 @@ class Connection {
   SQLite::Database database_;
   std::unordered_map<const char*, std::unique_ptr<SQLite::Statement>> statements_;
 };
+
+// Whether `path` has a log with what is not yet in the file: it is in use, or was not closed well.
+bool HasLog(const std::string& path);
+
+// To read a file that a server may or may not be using: as kReadOnly, but as kImmutable when there
+// is no log, so that nothing appears beside a file that nobody uses.
+absl::StatusOr<std::unique_ptr<Connection>> OpenForReading(const std::string& path,
+                                                           int busy_timeout_ms);
 
 }  // namespace homing::storage
 

@@ -62,8 +62,8 @@ struct StoredModel {
 };
 
 // Thread-safe. Every write is one transaction and durable (synchronous) when it returns OK. Codes
-// besides those named: UNAVAILABLE (busy), RESOURCE_EXHAUSTED (disk full), DATA_LOSS (corrupt),
-// INTERNAL.
+// besides those named: UNAVAILABLE (busy; the disk does not answer), RESOURCE_EXHAUSTED (disk
+// full), DATA_LOSS (corrupt), FAILED_PRECONDITION (read-only), INTERNAL.
 class JourneyStore {
  public:
   virtual ~JourneyStore() = default;
@@ -91,6 +91,13 @@ class JourneyStore {
   // A whole journey at once, finished. ALREADY_EXISTS, INVALID_ARGUMENT.
   virtual absl::Status ImportJourney(const JourneyRecord& record, const JourneyMap& map) = 0;
 
+  // How the last write fared: OK, or the fault of the store that it met (no room, no access, the
+  // disk does not answer). A store that was opened read-only is well.
+  virtual absl::Status WriteHealth() { return absl::OkStatus(); }
+  // Writes a little that changes nothing, to find out. Returns WriteHealth.
+  virtual absl::Status ProbeWrite() { return absl::OkStatus(); }
+  virtual bool read_only() const { return false; }
+
   // ALREADY_EXISTS.
   virtual absl::Status CreateModel(const StoredModel& model) = 0;
   // NOT_FOUND.
@@ -106,10 +113,13 @@ struct StoreOptions {
   int busy_timeout_ms = 5000;
   // Most that the file may grow to, bytes; a write beyond it is RESOURCE_EXHAUSTED. 0: no limit.
   std::int64_t max_bytes = 0;
+  // Changes no byte of the file and needs no write access to where it lies. The file must have been
+  // closed well and be of this program's schema.
+  bool read_only = false;
 };
 
-// INVALID_ARGUMENT (URL), FAILED_PRECONDITION (schema newer than this program), DATA_LOSS,
-// UNAVAILABLE.
+// INVALID_ARGUMENT (URL), FAILED_PRECONDITION (schema newer than this program; read-only: also an
+// older one, or a log that is not yet in the file), DATA_LOSS, UNAVAILABLE (in use).
 absl::StatusOr<std::unique_ptr<JourneyStore>> OpenJourneyStore(const StoreOptions& options);
 
 }  // namespace homing::storage

@@ -50,10 +50,34 @@ absl::Status LimitSize(Connection& connection, std::int64_t max_bytes) {
   });
 }
 
+// A server that was stopped leaves no log, or an empty one.
+absl::Status CheckClosedWell(const std::string& path) {
+  if (!HasLog(path)) return absl::OkStatus();
+  return absl::FailedPreconditionError(
+      absl::StrCat("store: '", path,
+                   "-wal' holds what is not yet in the file, which was not closed well: start "
+                   "homing-server on it once without --readonly, or take a backup"));
+}
+
+absl::StatusOr<std::unique_ptr<JourneyStore>> OpenReadOnly(const std::string& path,
+                                                           const StoreOptions& options) {
+  constexpr auto kAccess = Connection::Access::kImmutable;
+  HOMING_ASSIGN_OR_RETURN(auto lock, StoreLock::TakeShared(path));
+  HOMING_RETURN_IF_ERROR(CheckClosedWell(path));
+  HOMING_ASSIGN_OR_RETURN(const auto first,
+                          Connection::Open(path, kAccess, options.busy_timeout_ms));
+  HOMING_RETURN_IF_ERROR(CheckSchema(*first));
+  return std::make_unique<SqliteJourneyStore>(
+      std::move(lock), nullptr,
+      std::make_unique<QueryConnections>(path, kAccess, options.busy_timeout_ms,
+                                         kMaxQueryConnections));
+}
+
 }  // namespace
 
 absl::StatusOr<std::unique_ptr<JourneyStore>> OpenJourneyStore(const StoreOptions& options) {
   HOMING_ASSIGN_OR_RETURN(const std::string path, PathOf(options.url));
+  if (options.read_only && path != kInMemory) return OpenReadOnly(path, options);
   HOMING_ASSIGN_OR_RETURN(
       std::unique_ptr<Connection> writer,
       Connection::Open(path, Connection::Access::kReadWrite, options.busy_timeout_ms));
@@ -66,8 +90,8 @@ absl::StatusOr<std::unique_ptr<JourneyStore>> OpenJourneyStore(const StoreOption
   HOMING_RETURN_IF_ERROR(LimitSize(*writer, options.max_bytes));
   std::unique_ptr<QueryConnections> queries;
   if (path != kInMemory) {
-    queries =
-        std::make_unique<QueryConnections>(path, options.busy_timeout_ms, kMaxQueryConnections);
+    queries = std::make_unique<QueryConnections>(path, Connection::Access::kReadOnly,
+                                                 options.busy_timeout_ms, kMaxQueryConnections);
   }
   return std::make_unique<SqliteJourneyStore>(std::move(lock), std::move(writer),
                                               std::move(queries));

@@ -22,7 +22,7 @@ absl::StatusOr<std::unique_ptr<Connection>> QueryConnections::Take() {
     }
     --unopened_;
   }
-  auto connection = Connection::Open(path_, Connection::Access::kReadOnly, busy_timeout_ms_);
+  auto connection = Connection::Open(path_, access_, busy_timeout_ms_);
   if (!connection.ok()) {
     std::lock_guard lock(mutex_);
     ++unopened_;

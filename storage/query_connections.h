@@ -16,8 +16,12 @@ namespace homing::storage {
 // Thread-safe. Connections are opened when needed and kept; who finds all in use waits.
 class QueryConnections {
  public:
-  QueryConnections(std::string path, int busy_timeout_ms, int max_connections)
-      : path_(std::move(path)), busy_timeout_ms_(busy_timeout_ms), unopened_(max_connections) {}
+  QueryConnections(std::string path, Connection::Access access, int busy_timeout_ms,
+                   int max_connections)
+      : path_(std::move(path)),
+        access_(access),
+        busy_timeout_ms_(busy_timeout_ms),
+        unopened_(max_connections) {}
 
   // Runs `body` in a read transaction of a connection that no one else uses meanwhile.
   absl::Status Read(const std::function<absl::Status(Connection&)>& body);
@@ -27,6 +31,7 @@ class QueryConnections {
   void GiveBack(std::unique_ptr<Connection> connection);
 
   const std::string path_;
+  const Connection::Access access_;
   const int busy_timeout_ms_;
   std::mutex mutex_;
   std::condition_variable given_back_;

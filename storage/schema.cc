@@ -111,17 +111,42 @@ absl::Status CheckOwner(Connection& connection, std::int64_t version) {
                                                     ": the file is another program's database"));
 }
 
+absl::Status CheckNotNewer(std::int64_t version) {
+  if (version <= kSchemaVersion && version >= 0) return absl::OkStatus();
+  return absl::FailedPreconditionError(absl::StrCat("store: schema version is ", version,
+                                                    ", newer than this program's ", kSchemaVersion,
+                                                    ": use a newer homing-server"));
+}
+
 }  // namespace
+
+absl::Status CheckOwnFile(Connection& connection) {
+  const std::int64_t version = connection.Integer("PRAGMA user_version");
+  HOMING_RETURN_IF_ERROR(CheckOwner(connection, version));
+  return CheckNotNewer(version);
+}
+
+absl::Status CheckSchema(Connection& connection) {
+  return connection.Read([&]() -> absl::Status {
+    HOMING_RETURN_IF_ERROR(CheckOwnFile(connection));
+    const std::int64_t version = connection.Integer("PRAGMA user_version");
+    if (version == kSchemaVersion) return absl::OkStatus();
+    return absl::FailedPreconditionError(absl::StrCat(
+        "store: schema version is ", version, ", older than this program's ", kSchemaVersion,
+        ": start homing-server on it once, not read-only, to bring it up to date"));
+  });
+}
+
+absl::Status TouchSchemaVersion(Connection& connection) {
+  connection.Execute(
+      absl::StrCat("PRAGMA user_version=", connection.Integer("PRAGMA user_version")));
+  return absl::OkStatus();
+}
 
 absl::Status Migrate(Connection& connection) {
   return connection.Write([&]() -> absl::Status {
+    HOMING_RETURN_IF_ERROR(CheckOwnFile(connection));
     const std::int64_t version = connection.Integer("PRAGMA user_version");
-    HOMING_RETURN_IF_ERROR(CheckOwner(connection, version));
-    if (version > kSchemaVersion || version < 0) {
-      return absl::FailedPreconditionError(
-          absl::StrCat("store: schema version is ", version, ", newer than this program's ",
-                       kSchemaVersion, ": use a newer homing-server"));
-    }
     for (std::int64_t from = version; from < kSchemaVersion; ++from) {
       connection.Execute(kMigrations[static_cast<std::size_t>(from)]);
     }

@@ -18,6 +18,16 @@ inline constexpr std::int64_t kSchemaVersion = 2;
 // transaction. FAILED_PRECONDITION: a newer version, or another program's file.
 absl::Status Migrate(Connection& connection);
 
+// Without a transaction. FAILED_PRECONDITION: another program's file, or a newer version.
+absl::Status CheckOwnFile(Connection& connection);
+
+// For a file that may not be changed. FAILED_PRECONDITION: another version, or another program's
+// file.
+absl::Status CheckSchema(Connection& connection);
+
+// In a body. Writes the version that is there: a page, and no change.
+absl::Status TouchSchemaVersion(Connection& connection);
+
 }  // namespace homing::storage
 
 #endif  // STORAGE_SCHEMA_H_

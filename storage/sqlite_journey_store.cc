@@ -4,13 +4,42 @@
 #include "storage/journey_rows.h"
 #include "storage/map_rows.h"
 #include "storage/model_rows.h"
+#include "storage/schema.h"
+#include "storage/sqlite_status.h"
 #include "storage/step_rows.h"
 
 namespace homing::storage {
 
 absl::Status SqliteJourneyStore::Write(const Body& body) {
+  if (read_only()) {
+    return absl::FailedPreconditionError(
+        "store: it is read-only (--readonly): nothing can be recorded, changed or deleted");
+  }
   std::lock_guard lock(write_mutex_);
-  return writer_->Write([&] { return body(*writer_); });
+  const int changes = writer_->changes();
+  absl::Status status = writer_->Write([&] { return body(*writer_); });
+  NoteHealth(status, writer_->changes() != changes);
+  return status;
+}
+
+void SqliteJourneyStore::NoteHealth(const absl::Status& written, bool changed) {
+  const bool fault = IsStoreFault(written);
+  if (!fault && !(written.ok() && changed)) return;
+  const std::lock_guard lock(health_mutex_);
+  write_health_ = fault ? written : absl::OkStatus();
+}
+
+absl::Status SqliteJourneyStore::WriteHealth() {
+  const std::lock_guard lock(health_mutex_);
+  return write_health_;
+}
+
+absl::Status SqliteJourneyStore::ProbeWrite() {
+  if (!read_only()) {
+    const std::lock_guard lock(write_mutex_);
+    NoteHealth(writer_->Write([&] { return TouchSchemaVersion(*writer_); }), true);
+  }
+  return WriteHealth();
 }
 
 absl::Status SqliteJourneyStore::Read(const Body& body) {

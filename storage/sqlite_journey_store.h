@@ -17,7 +17,8 @@ namespace homing::storage {
 
 class SqliteJourneyStore final : public JourneyStore {
  public:
-  // `lock` and `queries` are null for a store in memory, which only its one connection sees.
+  // `lock` and `queries` are null for a store in memory, which only its one connection sees;
+  // `writer` is null for a read-only one.
   SqliteJourneyStore(std::unique_ptr<StoreLock> lock, std::unique_ptr<Connection> writer,
                      std::unique_ptr<QueryConnections> queries)
       : lock_(std::move(lock)), writer_(std::move(writer)), queries_(std::move(queries)) {}
@@ -33,6 +34,9 @@ class SqliteJourneyStore final : public JourneyStore {
   std::vector<absl::Status> AppendSteps(const std::vector<JourneyAppend>& appends) override;
   absl::StatusOr<JourneyMap> LoadMap(const std::string& name) override;
   absl::Status ImportJourney(const JourneyRecord& record, const JourneyMap& map) override;
+  absl::Status WriteHealth() override;
+  absl::Status ProbeWrite() override;
+  bool read_only() const override { return writer_ == nullptr; }
   absl::Status CreateModel(const StoredModel& model) override;
   absl::StatusOr<StoredModel> GetModel(const std::string& name) override;
   absl::StatusOr<std::vector<StoredModel>> ListModels(const std::string& after, int limit) override;
@@ -40,6 +44,8 @@ class SqliteJourneyStore final : public JourneyStore {
  private:
   using Body = std::function<absl::Status(Connection&)>;
   absl::Status Write(const Body& body);
+  // REQUIRES write_mutex_.
+  void NoteHealth(const absl::Status& written, bool changed);
   absl::Status Read(const Body& body);
   // What `query` gives in one read transaction.
   template <typename Result, typename Query>
@@ -48,8 +54,11 @@ class SqliteJourneyStore final : public JourneyStore {
   // Let go of last.
   const std::unique_ptr<StoreLock> lock_;
   std::mutex write_mutex_;
-  // Guarded by write_mutex_.
-  std::unique_ptr<Connection> writer_;
+  // Guarded by write_mutex_, the pointer apart.
+  const std::unique_ptr<Connection> writer_;
+  std::mutex health_mutex_;
+  // Guarded by health_mutex_, so that asking never waits for a write.
+  absl::Status write_health_;
   std::unique_ptr<QueryConnections> queries_;
 };
 

@@ -2,10 +2,13 @@
 
 #include <sqlite3.h>
 
+#include "absl/strings/cord.h"
 #include "absl/strings/str_cat.h"
 
 namespace homing::storage {
 namespace {
+
+constexpr char kFaultUrl[] = "homing/store-fault";
 
 absl::StatusCode ConstraintCode(int extended) {
   switch (extended) {
@@ -20,6 +23,26 @@ absl::StatusCode ConstraintCode(int extended) {
     default:
       return absl::StatusCode::kInternal;
   }
+}
+
+// A disk that does not answer may answer again: the caller tries later.
+absl::StatusCode IoErrorCode(int extended) {
+  switch (extended) {
+    case SQLITE_IOERR_NOMEM:
+    // The index of the log finds no room.
+    case SQLITE_IOERR_SHMSIZE:
+      return absl::StatusCode::kResourceExhausted;
+    // A checksum is wrong. (SQLITE_IOERR_CORRUPTFS is what EIO on a read becomes.)
+    case SQLITE_IOERR_DATA:
+      return absl::StatusCode::kDataLoss;
+    default:
+      return absl::StatusCode::kUnavailable;
+  }
+}
+
+bool IsFault(int code) {
+  const int primary = code & 0xff;
+  return primary != SQLITE_CONSTRAINT && primary != SQLITE_TOOBIG && primary != SQLITE_INTERRUPT;
 }
 
 absl::StatusCode CodeOf(int code) {
@@ -39,6 +62,8 @@ absl::StatusCode CodeOf(int code) {
     case SQLITE_NOMEM:
     case SQLITE_TOOBIG:
       return absl::StatusCode::kResourceExhausted;
+    case SQLITE_IOERR:
+      return IoErrorCode(code);
     case SQLITE_READONLY:
     case SQLITE_CANTOPEN:
     case SQLITE_PERM:
@@ -54,8 +79,12 @@ absl::StatusCode CodeOf(int code) {
 }  // namespace
 
 absl::Status StatusFromSqlite(int code, const std::string& message) {
-  return absl::Status(CodeOf(code), absl::StrCat("store: ", message, " (SQLite code ", code, ")"));
+  absl::Status status(CodeOf(code), absl::StrCat("store: ", message, " (SQLite code ", code, ")"));
+  if (IsFault(code)) status.SetPayload(kFaultUrl, absl::Cord(absl::StrCat(code)));
+  return status;
 }
+
+bool IsStoreFault(const absl::Status& status) { return status.GetPayload(kFaultUrl).has_value(); }
 
 absl::Status StatusFromException(const SQLite::Exception& exception) {
   const int extended = exception.getExtendedErrorCode();

@@ -11,12 +11,24 @@
 #include "absl/strings/str_cat.h"
 
 namespace homing::storage {
+namespace {
 
-absl::StatusOr<std::unique_ptr<StoreLock>> StoreLock::Take(const std::string& store_path) {
+std::string LockPath(const std::string& store_path) {
   // A link to the store is the same store.
   std::error_code error;
   const std::filesystem::path real = std::filesystem::weakly_canonical(store_path, error);
-  const std::string path = absl::StrCat(error ? store_path : real.string(), "-lock");
+  return absl::StrCat(error ? store_path : real.string(), "-lock");
+}
+
+absl::Status InUse(const std::string& store_path) {
+  return absl::UnavailableError(
+      absl::StrCat("store: '", store_path, "' is in use by another homing-server"));
+}
+
+}  // namespace
+
+absl::StatusOr<std::unique_ptr<StoreLock>> StoreLock::Take(const std::string& store_path) {
+  const std::string path = LockPath(store_path);
   const int file = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
   if (file < 0) {
     return absl::FailedPreconditionError(
@@ -24,8 +36,17 @@ absl::StatusOr<std::unique_ptr<StoreLock>> StoreLock::Take(const std::string& st
   }
   if (::flock(file, LOCK_EX | LOCK_NB) != 0) {
     ::close(file);
-    return absl::UnavailableError(
-        absl::StrCat("store: '", store_path, "' is in use by another homing-server"));
+    return InUse(store_path);
+  }
+  return std::unique_ptr<StoreLock>(new StoreLock(file));
+}
+
+absl::StatusOr<std::unique_ptr<StoreLock>> StoreLock::TakeShared(const std::string& store_path) {
+  const int file = ::open(LockPath(store_path).c_str(), O_RDONLY | O_CLOEXEC);
+  if (file < 0) return std::unique_ptr<StoreLock>();
+  if (::flock(file, LOCK_SH | LOCK_NB) != 0) {
+    ::close(file);
+    return InUse(store_path);
   }
   return std::unique_ptr<StoreLock>(new StoreLock(file));
 }

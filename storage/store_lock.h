@@ -16,6 +16,9 @@ class StoreLock {
   // UNAVAILABLE: another process (or another store of this one) has it. FAILED_PRECONDITION: the
   // file cannot be opened.
   static absl::StatusOr<std::unique_ptr<StoreLock>> Take(const std::string& store_path);
+  // Shared with other readers; nothing is made or changed. Null: there is no such file, so that no
+  // server has used the store where it lies now. UNAVAILABLE: a process that writes has it.
+  static absl::StatusOr<std::unique_ptr<StoreLock>> TakeShared(const std::string& store_path);
   ~StoreLock();
   StoreLock(const StoreLock&) = delete;
   StoreLock& operator=(const StoreLock&) = delete;

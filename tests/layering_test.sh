@@ -18,12 +18,14 @@ homing/localization homing/localization/ homing/journey/ homing/similarity/ homi
 storage             storage/ homing/
 proto/wire          proto/wire/ homing/ homing/v1/
 server/session      server/session/ storage/ homing/
+server/access       server/access/ server/session/ storage/ homing/
+server/admission    server/admission/ server/session/ storage/ homing/
 server              server/ storage/ homing/ homing/v1/ proto/wire/ google/rpc/ grpc/health/
 client/simulator    client/simulator/ homing/flow/ homing/image/
 client              client/ homing/ homing/v1/ proto/wire/ google/rpc/ grpc/health/
 '
 # Folders where generated code, gRPC and Protobuf may not be seen.
-no_network='homing storage server/session client/simulator'
+no_network='homing storage server/session server/access server/admission client/simulator'
 
 fail() { echo "layering: $*"; failed=1; }
 
@@ -71,7 +73,7 @@ check_contents() {
     forbid 'OpenCV in a folder that does not use images' 'opencv2/' $(sources storage proto)
     forbid 'gRPC or Protobuf where no network may be' 'grpc|google/protobuf|\.pb\.h' $(sources $no_network)
     forbid 'SQLite outside storage' 'include *[<"](sqlite3|SQLiteCpp)' \
-      $(sources homing server proto client tests | grep -v '^tests/storage/')
+      $(sources homing server proto client tests | grep -vE '^tests/(storage|benchmark)/')
     forbid '.value() outside tests' '\.value\(\)' $(sources homing storage server proto client)
     forbid 'CHECK outside tests and main' '(^|[^_[:alnum:]])D?CHECK(_[A-Z]+)?\(|(^|[^_[:alnum:]])(abort|assert)\(' \
       $(sources homing storage server proto client | grep -v '/main\.cc$')
@@ -135,6 +137,9 @@ self_test() {
   plant server/a.cc '#include "client/frame_source.h"'
   plant server/session/a.cc '#include "homing/v1/types.pb.h"'
   plant server/session/a.h '#include "server/journey_archive.h"'
+  plant server/access/a.cc '#include "server/unary_call.h"'
+  plant server/access/a.cc '#include <grpcpp/grpcpp.h>'
+  plant server/admission/a.h '#include "server/access/role.h"'
   plant client/a.cc '#include "server/journey_archive.h"'
   plant client/a.cc '#include "storage/journey_store.h"'
   plant client/simulator/a.cc '#include "homing/journey/journey_map.h"'

@@ -15,6 +15,7 @@ void AddJourneysCommand(CLI::App& app, Session& session);
 void AddTrainCommand(CLI::App& app, Session& session);
 void AddSimulateCommand(CLI::App& app, Session& session);
 void AddDrawCommand(CLI::App& app, Session& session);
+void AddBenchCommand(CLI::App& app, Session& session);
 void AddEvaluateCommand(CLI::App& app, Session& session);
 
 }  // namespace homing::client

@@ -6,6 +6,20 @@
 #include "homing/status_macros.h"
 
 namespace homing::client {
+namespace {
+
+// What the one who typed the command can do about a refusal.
+std::string AdviceOn(const absl::Status& status) {
+  if (absl::IsUnauthenticated(status)) {
+    return "say who this is: --tls-cert and --tls-key, or --token-file";
+  }
+  if (absl::IsPermissionDenied(status)) {
+    return "the server's operator can change roles, or list this robot among a journey's readers";
+  }
+  return "";
+}
+
+}  // namespace
 
 absl::StatusOr<Connection> Session::Connect() const {
   HOMING_ASSIGN_OR_RETURN(Connection opened, Connection::Open(connection));
@@ -40,6 +54,9 @@ void AddCommonFlags(CLI::App& app, Session& session) {
   app.add_option("--tls-ca", connection.tls_ca, "TLS: PEM file of the certificates to trust");
   app.add_option("--tls-cert", connection.tls_cert, "TLS: PEM file of this robot's certificate");
   app.add_option("--tls-key", connection.tls_key, "TLS: PEM file of this robot's key");
+  app.add_option("--token-file", connection.token_file, "File of this robot's token")
+      ->envname("HOMING_TOKEN_FILE");
+  app.add_flag("--insecure", connection.insecure, "Send the token in plain text off this machine");
   app.add_option_function<double>(
          "--retry-seconds",
          [&connection](const double& seconds) {
@@ -56,6 +73,9 @@ int ExitCode(const Session& session, const absl::Status& status) {
   std::fputs(
       absl::StrCat("homing: error: ", std::string(status.message()), " (", code, ")\n").c_str(),
       stderr);
+  if (const std::string advice = AdviceOn(status); !advice.empty()) {
+    std::fputs(absl::StrCat("homing: ", advice, "\n").c_str(), stderr);
+  }
   if (!absl::IsUnavailable(status)) return 1;
   const std::string& address = session.connection.address;
   if (std::string(status.message()).find(address) == std::string::npos) {

@@ -27,18 +27,23 @@ struct TrackedFrame {
   std::vector<cv::Point2f> corners;
 };
 
-TrackedFrame Prepare(const cv::Mat& gray, const FlowOptions& options) {
-  const cv::Mat normalized = NormalizedImage(gray, options);
-  TrackedFrame frame;
-  frame.source_size = gray.size();
-  frame.scale = {double(normalized.cols) / gray.cols, double(normalized.rows) / gray.rows};
-  frame.corners = DetectCorners(normalized, options, std::max(1.0, frame.scale.x));
+// What a frame needs besides, kept from one to the next.
+struct Buffers {
+  WorkingBuffers working;
   cv::Mat levels;
-  normalized.convertTo(levels, CV_8U, kLevelsPerDeviation, 128);
+};
+
+// Into `frame`, whose images of the same size are used again.
+void Prepare(const cv::Mat& gray, const FlowOptions& options, Buffers* buffers,
+             TrackedFrame* frame) {
+  const cv::Mat& normalized = NormalizedImage(gray, options, &buffers->working);
+  frame->source_size = gray.size();
+  frame->scale = {double(normalized.cols) / gray.cols, double(normalized.rows) / gray.rows};
+  frame->corners = DetectCorners(normalized, options, std::max(1.0, frame->scale.x));
+  normalized.convertTo(buffers->levels, CV_8U, kLevelsPerDeviation, 128);
   const cv::Size window(options.window_px, options.window_px);
-  cv::buildOpticalFlowPyramid(levels, frame.pyramid, window, options.pyramid_levels, true,
+  cv::buildOpticalFlowPyramid(buffers->levels, frame->pyramid, window, options.pyramid_levels, true,
                               cv::BORDER_REFLECT_101, cv::BORDER_CONSTANT, false);
-  return frame;
 }
 
 // Where points of one frame are in another, and which were found.
@@ -100,7 +105,11 @@ FlowField FlowBetween(const TrackedFrame& before, const TrackedFrame& now,
 
 struct FlowTracker::State {
   FlowOptions options;
-  std::optional<TrackedFrame> before;
+  Buffers buffers;
+  // The last frame, if has_before; and where the next one goes.
+  TrackedFrame before;
+  TrackedFrame now;
+  bool has_before = false;
 };
 
 FlowTracker::FlowTracker(const FlowOptions& options) : state_(std::make_unique<State>()) {
@@ -111,24 +120,25 @@ FlowTracker& FlowTracker::operator=(FlowTracker&&) noexcept = default;
 FlowTracker::~FlowTracker() = default;
 
 absl::StatusOr<std::optional<FlowField>> FlowTracker::Track(const cv::Mat& gray) {
-  std::optional<TrackedFrame>& before = state_->before;
+  const TrackedFrame& before = state_->before;
   if (gray.type() != CV_8UC1 || gray.empty()) {
     return absl::InvalidArgumentError("frame is not a grey image of 8 bits");
   }
-  if (before.has_value() && before->source_size != gray.size()) {
+  if (state_->has_before && before.source_size != gray.size()) {
     return absl::InvalidArgumentError(absl::StrCat(
         "frame of ", gray.cols, " x ", gray.rows, " px differs from the frame before of ",
-        before->source_size.width, " x ", before->source_size.height, " px"));
+        before.source_size.width, " x ", before.source_size.height, " px"));
   }
-  TrackedFrame now = Prepare(gray, state_->options);
+  Prepare(gray, state_->options, &state_->buffers, &state_->now);
   std::optional<FlowField> field;
-  if (before.has_value()) {
-    field = FlowBetween(*before, now, state_->options);
+  if (state_->has_before) {
+    field = FlowBetween(before, state_->now, state_->options);
   }
-  before = std::move(now);
+  std::swap(state_->before, state_->now);
+  state_->has_before = true;
   return field;
 }
 
-void FlowTracker::Reset() { state_->before.reset(); }
+void FlowTracker::Reset() { state_->has_before = false; }
 
 }  // namespace homing

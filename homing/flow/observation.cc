@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "absl/strings/str_cat.h"
+#include "homing/range_check.h"
 #include "homing/status_macros.h"
 
 namespace homing {
@@ -13,8 +14,7 @@ namespace {
 std::string NameOf(std::size_t side) { return side == 0 ? "left" : "right"; }
 
 absl::Status WithSide(const absl::Status& status, std::size_t side) {
-  return absl::Status(status.code(),
-                      absl::StrCat(NameOf(side), ": ", std::string(status.message())));
+  return Within(NameOf(side), status);
 }
 
 // Finite, and no further off the image than its own size.

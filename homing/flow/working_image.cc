@@ -4,6 +4,8 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
+#include "homing/vector_clones.h"
+
 namespace homing {
 namespace {
 
@@ -12,21 +14,32 @@ constexpr double kMaxScale = 2;
 constexpr int kMinSidePx = 16;
 
 // Resized and smoothed, CV_32FC1: 8 bits would lose a dim image's texture.
-cv::Mat SmoothedImage(const cv::Mat& gray, const FlowOptions& options) {
+const cv::Mat& SmoothedImage(const cv::Mat& gray, const FlowOptions& options,
+                             WorkingBuffers* buffers) {
   const cv::Size size = WorkingSize(gray.size(), options);
-  cv::Mat image;
-  gray.convertTo(image, CV_32F);
+  gray.convertTo(buffers->levels, CV_32F);
+  const cv::Mat* image = &buffers->levels;
   if (size != gray.size()) {
     const bool smaller = size.width < gray.cols;
-    cv::Mat resized;
-    cv::resize(image, resized, size, 0, 0, smaller ? cv::INTER_AREA : cv::INTER_LINEAR);
-    image = resized;
+    cv::resize(*image, buffers->resized, size, 0, 0, smaller ? cv::INTER_AREA : cv::INTER_LINEAR);
+    image = &buffers->resized;
   }
   if (options.smoothing_sigma_px > 0) {
     const double sigma = options.smoothing_sigma_px * std::max(1.0, double(size.width) / gray.cols);
-    cv::GaussianBlur(image, image, cv::Size(), sigma, sigma, cv::BORDER_REFLECT_101);
+    cv::GaussianBlur(*image, buffers->smoothed, cv::Size(), sigma, sigma, cv::BORDER_REFLECT_101);
+    image = &buffers->smoothed;
   }
-  return image;
+  return *image;
+}
+
+// One row: deviations from the mean, in local deviations. The same to the bit on every machine.
+HOMING_VECTOR_CLONES
+void NormalizeRow(const float* in, const float* mean, const float* square, float floor, int size,
+                  float* out) {
+  for (int x = 0; x < size; ++x) {
+    const float deviation = std::sqrt(std::max(0.0F, square[x] - mean[x] * mean[x]));
+    out[x] = (in[x] - mean[x]) / (deviation + floor);
+  }
 }
 
 }  // namespace
@@ -42,27 +55,26 @@ cv::Size WorkingSize(const cv::Size& source, const FlowOptions& options) {
   return {side(source.width), side(source.height)};
 }
 
-cv::Mat NormalizedImage(const cv::Mat& gray, const FlowOptions& options) {
-  const cv::Mat image = SmoothedImage(gray, options);
+const cv::Mat& NormalizedImage(const cv::Mat& gray, const FlowOptions& options,
+                               WorkingBuffers* buffers) {
+  const cv::Mat& image = SmoothedImage(gray, options, buffers);
   const cv::Size window(options.normalization_window_px, options.normalization_window_px);
-  cv::Mat mean;
-  cv::Mat variance;
-  cv::boxFilter(image, mean, CV_32F, window, cv::Point(-1, -1), true, cv::BORDER_REFLECT_101);
-  cv::sqrBoxFilter(image, variance, CV_32F, window, cv::Point(-1, -1), true,
+  cv::boxFilter(image, buffers->mean, CV_32F, window, cv::Point(-1, -1), true,
+                cv::BORDER_REFLECT_101);
+  cv::sqrBoxFilter(image, buffers->square, CV_32F, window, cv::Point(-1, -1), true,
                    cv::BORDER_REFLECT_101);
   const auto floor = static_cast<float>(options.normalization_floor);
-  cv::Mat result(image.size(), CV_32FC1);
+  buffers->normalized.create(image.size(), CV_32FC1);
   for (int y = 0; y < image.rows; ++y) {
-    const float* in = image.ptr<float>(y);
-    const float* m = mean.ptr<float>(y);
-    const float* square = variance.ptr<float>(y);
-    float* out = result.ptr<float>(y);
-    for (int x = 0; x < image.cols; ++x) {
-      const float deviation = std::sqrt(std::max(0.0F, square[x] - m[x] * m[x]));
-      out[x] = (in[x] - m[x]) / (deviation + floor);
-    }
+    NormalizeRow(image.ptr<float>(y), buffers->mean.ptr<float>(y), buffers->square.ptr<float>(y),
+                 floor, image.cols, buffers->normalized.ptr<float>(y));
   }
-  return result;
+  return buffers->normalized;
+}
+
+cv::Mat NormalizedImage(const cv::Mat& gray, const FlowOptions& options) {
+  WorkingBuffers buffers;
+  return NormalizedImage(gray, options, &buffers);
 }
 
 }  // namespace homing

@@ -26,7 +26,21 @@ struct WorkingScale {
 // Size of the working image of a source of this size.
 cv::Size WorkingSize(const cv::Size& source, const FlowOptions& options);
 
-// CV_32FC1 in local deviations from the local mean, of WorkingSize. `gray` is CV_8UC1.
+// Images of one step to the next, kept for the next frame of the same size: most of the time of a
+// small frame went into fresh pages.
+struct WorkingBuffers {
+  cv::Mat levels;
+  cv::Mat resized;
+  cv::Mat smoothed;
+  cv::Mat mean;
+  cv::Mat square;
+  cv::Mat normalized;
+};
+
+// CV_32FC1 in local deviations from the local mean, of WorkingSize. `gray` is CV_8UC1. The result
+// is in the buffers.
+const cv::Mat& NormalizedImage(const cv::Mat& gray, const FlowOptions& options,
+                               WorkingBuffers* buffers);
 cv::Mat NormalizedImage(const cv::Mat& gray, const FlowOptions& options);
 
 }  // namespace homing

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "absl/strings/str_cat.h"
+#include "homing/limit_error.h"
 #include "homing/status_macros.h"
 
 namespace homing {
@@ -30,9 +31,9 @@ absl::Status CheckLimits(const Dimensions& dimensions, const DecodeLimits& limit
   HOMING_RETURN_IF_ERROR(CheckSide("frame.width", dimensions.width, limits));
   HOMING_RETURN_IF_ERROR(CheckSide("frame.height", dimensions.height, limits));
   if (dimensions.width * dimensions.height > limits.max_pixels) {
-    return absl::InvalidArgumentError(absl::StrCat("frame of ", dimensions.width, " x ",
-                                                   dimensions.height, " px is over the limit of ",
-                                                   limits.max_pixels, " pixels"));
+    return LimitError("PIXELS",
+                      absl::StrCat("frame of ", dimensions.width, " x ", dimensions.height,
+                                   " px is over the limit of ", limits.max_pixels, " pixels"));
   }
   return absl::OkStatus();
 }

@@ -4,6 +4,7 @@
 
 #include "absl/status/status.h"
 #include "absl/strings/str_cat.h"
+#include "homing/limit_error.h"
 #include "homing/status_macros.h"
 #include "proto/wire/enum_conversion.h"
 
@@ -104,8 +105,8 @@ absl::StatusOr<FlowField> FromProto(const v1::FlowVectors& message, const std::s
       CheckSide(message.height(), 1, limits.max_side_px, absl::StrCat(field, ".height")));
   const int size = message.start_x_size();
   if (size > limits.max_vectors) {
-    return absl::InvalidArgumentError(absl::StrCat(
-        field, ".start_x has ", size, " entries: must have at most ", limits.max_vectors));
+    return LimitError("VECTORS", absl::StrCat(field, ".start_x has ", size,
+                                              " entries: must have at most ", limits.max_vectors));
   }
   HOMING_RETURN_IF_ERROR(CheckColumn(message.start_x(), size, absl::StrCat(field, ".start_x")));
   HOMING_RETURN_IF_ERROR(CheckColumn(message.start_y(), size, absl::StrCat(field, ".start_y")));

@@ -1,11 +1,12 @@
 #include "server/session/error_reason.h"
 
 #include "absl/strings/cord.h"
+#include "homing/limit_error.h"
 
 namespace homing::server {
 namespace {
 
-constexpr char kReasonUrl[] = "homing/reason";
+constexpr const char* kReasonUrl = kReasonPayload;
 constexpr char kMetadataUrl[] = "homing/metadata/";
 
 }  // namespace

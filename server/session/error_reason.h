@@ -9,6 +9,9 @@
 
 namespace homing::server {
 
+// Metadata: when a retry may succeed, ms. Without it: in a second.
+inline constexpr char kRetryAfterMs[] = "retry_after_ms";
+
 struct ErrorReason {
   // UPPER_SNAKE_CASE.
   std::string reason;

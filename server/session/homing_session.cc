@@ -53,7 +53,7 @@ absl::StatusOr<std::unique_ptr<HomingSession>> HomingSession::Open(JourneyCatalo
     HOMING_RETURN_IF_ERROR(camera ? Validate(*camera) : absl::OkStatus());
   }
   std::unique_ptr<HomingSession> session(new HomingSession(query, std::move(pattern), limits));
-  HOMING_ASSIGN_OR_RETURN(session->journeys_, catalog->Resolve(session->pattern_));
+  HOMING_ASSIGN_OR_RETURN(session->journeys_, catalog->Resolve(session->pattern_, query.filter));
   HOMING_RETURN_IF_ERROR(
       SelectJourneys(session->journeys_, session->pattern_, RobotOf(query)).status());
   return session;

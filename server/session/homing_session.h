@@ -16,8 +16,9 @@
 namespace homing::server {
 
 struct HomingQuery {
-  // Name or pattern.
+  // Name or pattern; of a pattern, those that the filter lets through.
   std::string journey;
+  JourneyFilter filter;
   Travel travel = Travel::kReturn;
   std::array<std::optional<Camera>, 2> cameras;
   MatchOptions match;

@@ -1,11 +1,13 @@
 #include "server/session/journey_catalog.h"
 
+#include <algorithm>
 #include <functional>
 #include <utility>
 
 #include "absl/strings/str_cat.h"
 #include "homing/status_macros.h"
 #include "server/session/error_reason.h"
+#include "server/session/fleet_index.h"
 
 namespace homing::server {
 namespace {
@@ -45,7 +47,37 @@ std::mutex& JourneyCatalog::StripeOf(const std::string& name) {
 std::shared_ptr<LiveJourney> JourneyCatalog::Find(const std::string& name) {
   const std::lock_guard lock(mutex_);
   const auto found = live_.find(name);
-  return found == live_.end() ? nullptr : found->second;
+  return found == live_.end() ? nullptr : Use(&found->second);
+}
+
+std::shared_ptr<LiveJourney> JourneyCatalog::Use(Cached* cached) {
+  cached->last_used = ++uses_;
+  return cached->journey;
+}
+
+void JourneyCatalog::LetGoOfUnused() {
+  std::int64_t bytes = 0;
+  std::vector<std::pair<std::uint64_t, std::map<std::string, Cached>::iterator>> unused;
+  for (auto cached = live_.begin(); cached != live_.end(); ++cached) {
+    bytes += cached->second.journey->MemoryBytes();
+    // Only the catalog holds it, and the catalog alone hands it out.
+    if (cached->second.journey.use_count() == 1 && cached->second.journey->IsIdle(now_)) {
+      unused.emplace_back(cached->second.last_used, cached);
+    }
+  }
+  if (bytes <= options_.cache_bytes) {
+    return;
+  }
+  std::sort(unused.begin(), unused.end(),
+            [](const auto& a, const auto& b) { return a.first < b.first; });
+  // Some room is made at once, so that this is not done at each use.
+  for (const auto& [last_used, cached] : unused) {
+    if (bytes <= options_.cache_bytes / 10 * 9) {
+      return;
+    }
+    bytes -= cached->second.journey->MemoryBytes();
+    live_.erase(cached);
+  }
 }
 
 absl::StatusOr<std::shared_ptr<LiveJourney>> JourneyCatalog::OpenLocked(const std::string& name) {
@@ -54,9 +86,12 @@ absl::StatusOr<std::shared_ptr<LiveJourney>> JourneyCatalog::OpenLocked(const st
   }
   HOMING_ASSIGN_OR_RETURN(JourneyRecord record, store_->GetJourney(name));
   HOMING_ASSIGN_OR_RETURN(JourneyMap map, store_->LoadMap(name));
-  auto journey = std::make_shared<LiveJourney>(std::move(record), std::move(map));
+  auto journey = std::make_shared<LiveJourney>(std::move(record), std::move(map), index_);
   const std::lock_guard lock(mutex_);
-  live_[name] = journey;
+  live_[name] = {journey, ++uses_};
+  if (options_.cache_bytes > 0) {
+    LetGoOfUnused();
+  }
   return journey;
 }
 
@@ -85,6 +120,9 @@ absl::StatusOr<JourneyRecord> JourneyCatalog::Create(const JourneyRecord& record
     return GetSameOrExists(record);
   }
   HOMING_RETURN_IF_ERROR(status);
+  if (index_ != nullptr) {
+    index_->Created(record.name, record.settings);
+  }
   return store_->GetJourney(record.name);
 }
 
@@ -96,11 +134,27 @@ absl::StatusOr<JourneyRecord> JourneyCatalog::Get(const std::string& name) {
 }
 
 absl::StatusOr<std::vector<JourneyRecord>> JourneyCatalog::List(const std::string& robot,
-                                                                const std::string& after,
-                                                                int limit) {
-  HOMING_ASSIGN_OR_RETURN(std::vector<JourneyRecord> records,
-                          store_->ListJourneys(PrefixOf(robot), after, limit));
-  return records;
+                                                                const std::string& after, int limit,
+                                                                const JourneyFilter& filter) {
+  std::vector<JourneyRecord> records;
+  std::string last = after;
+  while (true) {
+    HOMING_ASSIGN_OR_RETURN(std::vector<JourneyRecord> page,
+                            store_->ListJourneys(PrefixOf(robot), last, limit));
+    const bool is_last = page.size() < static_cast<std::size_t>(limit);
+    last = page.empty() ? last : page.back().name;
+    for (JourneyRecord& record : page) {
+      if (!filter || filter(record)) {
+        records.push_back(std::move(record));
+      }
+      if (records.size() == static_cast<std::size_t>(limit)) {
+        return records;
+      }
+    }
+    if (is_last) {
+      return records;
+    }
+  }
 }
 
 absl::Status JourneyCatalog::Delete(const std::string& name) {
@@ -112,6 +166,9 @@ absl::Status JourneyCatalog::Delete(const std::string& name) {
                    {"JOURNEY_DELETED", {}}));
   }
   HOMING_RETURN_IF_ERROR(store_->DeleteJourney(name));
+  if (index_ != nullptr) {
+    index_->Deleted(name);
+  }
   if (journey) {
     journey->MarkDeleted();
     const std::lock_guard table_lock(mutex_);
@@ -142,6 +199,9 @@ absl::StatusOr<JourneyRecord> JourneyCatalog::Import(const JourneyRecord& record
                                                      const JourneyMap& map) {
   const std::lock_guard lock(StripeOf(record.name));
   HOMING_RETURN_IF_ERROR(store_->ImportJourney(record, map));
+  if (index_ != nullptr) {
+    index_->Imported(record.name, record.settings, map);
+  }
   return store_->GetJourney(record.name);
 }
 
@@ -160,7 +220,8 @@ absl::Status JourneyCatalog::AddIfCovered(const JourneyName& pattern, const std:
   return absl::OkStatus();
 }
 
-absl::StatusOr<LiveJourneys> JourneyCatalog::Resolve(const JourneyName& pattern) {
+absl::StatusOr<LiveJourneys> JourneyCatalog::Resolve(const JourneyName& pattern,
+                                                     const JourneyFilter& filter) {
   LiveJourneys journeys;
   if (!pattern.is_pattern()) {
     HOMING_ASSIGN_OR_RETURN(auto journey, Open(pattern.ToString()));
@@ -172,7 +233,9 @@ absl::StatusOr<LiveJourneys> JourneyCatalog::Resolve(const JourneyName& pattern)
     HOMING_ASSIGN_OR_RETURN(const std::vector<JourneyRecord> page,
                             store_->ListJourneys(PrefixOf(pattern.robot), after, kListPage));
     for (const JourneyRecord& record : page) {
-      HOMING_RETURN_IF_ERROR(AddIfCovered(pattern, record.name, &journeys));
+      if (!filter || filter(record)) {
+        HOMING_RETURN_IF_ERROR(AddIfCovered(pattern, record.name, &journeys));
+      }
     }
     if (page.size() < std::size_t{kListPage}) {
       break;
@@ -189,14 +252,22 @@ absl::StatusOr<LiveJourneys> JourneyCatalog::Resolve(const JourneyName& pattern)
 absl::StatusOr<WriterClaim> JourneyCatalog::Claim(const std::string& name,
                                                   const std::string& writer_id, TimePoint now,
                                                   WriterLease::Evict evict) {
+  if (store_->read_only()) {
+    return absl::FailedPreconditionError("the server is read-only: it records nothing");
+  }
   const std::lock_guard lock(StripeOf(name));
   HOMING_ASSIGN_OR_RETURN(auto journey, OpenLocked(name));
-  const bool changed = journey->record().writer_id != writer_id;
-  HOMING_ASSIGN_OR_RETURN(const std::uint64_t claim,
-                          journey->Claim(writer_id, now, std::move(evict)));
-  if (changed) {
+  {
+    const std::lock_guard table_lock(mutex_);
+    now_ = std::max(now_, now);
+  }
+  HOMING_RETURN_IF_ERROR(journey->CheckClaim(writer_id, now));
+  // First on disk: what is in memory is durable.
+  if (journey->record().writer_id != writer_id) {
     HOMING_RETURN_IF_ERROR(store_->SetWriter(name, writer_id));
   }
+  HOMING_ASSIGN_OR_RETURN(const std::uint64_t claim,
+                          journey->Claim(writer_id, now, std::move(evict)));
   return WriterClaim{std::move(journey), claim};
 }
 

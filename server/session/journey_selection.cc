@@ -61,7 +61,33 @@ LocalizerOptions MostFrequent(const std::vector<Candidate>& candidates) {
           })->first;
 }
 
-absl::Status NoneLeft(const JourneyName& pattern, std::size_t covered, const absl::Status& last) {
+// Journeys whose settings are the same to a robot.
+struct Group {
+  LocalizerOptions options;
+  std::int64_t journeys = 0;
+  std::string first_name;
+  // Indices of their settings.
+  std::vector<std::size_t> members;
+};
+
+bool IsMoreFrequent(const Group& a, const Group& b) {
+  return a.journeys != b.journeys ? a.journeys > b.journeys : a.first_name < b.first_name;
+}
+
+void Count(const SettingsUse& use, std::size_t index, const LocalizerOptions& options,
+           std::vector<Group>* groups) {
+  auto group = std::find_if(groups->begin(), groups->end(), [&](const Group& known) {
+    return SameSettings(known.options, options);
+  });
+  if (group == groups->end()) {
+    group = groups->insert(groups->end(), Group{options, 0, use.first_name, {}});
+  }
+  group->journeys += use.journeys;
+  group->first_name = std::min(group->first_name, use.first_name);
+  group->members.push_back(index);
+}
+
+absl::Status NoneLeft(const JourneyName& pattern, std::int64_t covered, const absl::Status& last) {
   return WithReason(absl::FailedPreconditionError(absl::StrCat(
                         "journey is \"", pattern.ToString(), "\"; it covers ", covered,
                         " journeys, and none has the camera and settings of the query: ",
@@ -89,7 +115,7 @@ absl::StatusOr<JourneySelection> SelectJourneys(const LiveJourneys& covered,
     }
   }
   if (candidates.empty()) {
-    return NoneLeft(pattern, covered.size(), last);
+    return NoneLeft(pattern, static_cast<std::int64_t>(covered.size()), last);
   }
   JourneySelection selection;
   selection.options = MostFrequent(candidates);
@@ -98,6 +124,41 @@ absl::StatusOr<JourneySelection> SelectJourneys(const LiveJourneys& covered,
       selection.journeys.push_back(std::move(candidate.journey));
     }
   }
+  return selection;
+}
+
+absl::StatusOr<SettingsSelection> SelectSettings(const std::vector<SettingsUse>& uses,
+                                                 const QueryRobot& robot) {
+  const JourneyName all{kWildcard, kWildcard};
+  std::vector<Group> groups;
+  std::int64_t journeys = 0;
+  absl::Status last;
+  for (std::size_t i = 0; i < uses.size(); ++i) {
+    if (uses[i].journeys == 0) continue;
+    journeys += uses[i].journeys;
+    const LocalizerOptions options = OptionsFor(robot, *uses[i].settings);
+    const absl::Status status = CheckCompatible(options, *uses[i].settings);
+    if (status.ok()) {
+      Count(uses[i], i, options, &groups);
+    } else {
+      last = status;
+    }
+  }
+  if (journeys == 0) {
+    return absl::NotFoundError(
+        absl::StrCat("journey is \"", all.ToString(), "\"; no journey is covered by it"));
+  }
+  if (groups.empty()) {
+    return NoneLeft(all, journeys, last);
+  }
+  const auto best = std::min_element(groups.begin(), groups.end(), IsMoreFrequent);
+  SettingsSelection selection{best->options, std::vector<bool>(uses.size()), false};
+  for (const std::size_t member : best->members) {
+    selection.chosen[member] = true;
+  }
+  selection.is_tie = std::count_if(groups.begin(), groups.end(), [&](const Group& group) {
+                       return group.journeys == best->journeys;
+                     }) > 1;
   return selection;
 }
 

@@ -4,8 +4,10 @@
 #define SERVER_SESSION_JOURNEY_SELECTION_H_
 
 #include <array>
+#include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "absl/status/statusor.h"
 #include "homing/localization/localizer.h"
@@ -36,6 +38,28 @@ struct JourneySelection {
 absl::StatusOr<JourneySelection> SelectJourneys(const LiveJourneys& covered,
                                                 const JourneyName& pattern,
                                                 const QueryRobot& robot);
+
+// Settings, and how many of the journeys covered have them.
+struct SettingsUse {
+  const JourneySettings* settings = nullptr;
+  std::int64_t journeys = 0;
+  // Of those journeys, in order of name. Empty: not known.
+  std::string first_name;
+};
+
+struct SettingsSelection {
+  // As in JourneySelection.
+  LocalizerOptions options;
+  // By the order of the uses given: whether journeys of these settings are chosen.
+  std::vector<bool> chosen;
+  // Others are as frequent: the first names decide.
+  bool is_tie = false;
+};
+
+// The choice of SelectJourneys for a wildcard, from counts alone. NOT_FOUND: no journeys;
+// FAILED_PRECONDITION: none is left.
+absl::StatusOr<SettingsSelection> SelectSettings(const std::vector<SettingsUse>& uses,
+                                                 const QueryRobot& robot);
 
 }  // namespace homing::server
 

@@ -8,6 +8,7 @@
 #include "homing/landmark/landmark_finder.h"
 #include "homing/range_check.h"
 #include "homing/status_macros.h"
+#include "server/session/fleet_index.h"
 #include "server/session/journey_selection.h"
 
 namespace homing::server {
@@ -105,6 +106,22 @@ absl::StatusOr<SeenNow> See(const LandmarkQuery& query, const LocalizerOptions& 
   return now;
 }
 
+bool IsAll(const JourneyName& pattern) {
+  return pattern.robot == kWildcard && pattern.journey == kWildcard;
+}
+
+absl::StatusOr<LandmarkQueryResult> MatchAll(FleetIndex* index, const LandmarkQuery& query,
+                                             const QueryRobot& robot, const DecodeLimits& limits) {
+  HOMING_ASSIGN_OR_RETURN(const LocalizerOptions options, index->Select(robot));
+  HOMING_ASSIGN_OR_RETURN(SeenNow now, See(query, options, limits));
+  LandmarkQueryResult result{now.motion, {}, std::move(now.sides)};
+  HOMING_ASSIGN_OR_RETURN(auto matches, index->Find(robot, result.seen, query.match));
+  for (auto& [journey, match] : matches) {
+    result.matches.push_back({std::move(journey), match});
+  }
+  return result;
+}
+
 }  // namespace
 
 absl::StatusOr<LandmarkQueryResult> MatchLandmarks(JourneyCatalog* catalog,
@@ -116,7 +133,11 @@ absl::StatusOr<LandmarkQueryResult> MatchLandmarks(JourneyCatalog* catalog,
     return absl::InvalidArgumentError("left and right are both empty; a camera is required");
   }
   HOMING_ASSIGN_OR_RETURN(const QueryRobot robot, MeasureRobot(query, limits));
-  HOMING_ASSIGN_OR_RETURN(const LiveJourneys covered, catalog->Resolve(pattern));
+  // The index knows no callers: it answers those who may read all.
+  if (catalog->index() != nullptr && IsAll(pattern) && !query.filter) {
+    return MatchAll(catalog->index(), query, robot, limits);
+  }
+  HOMING_ASSIGN_OR_RETURN(const LiveJourneys covered, catalog->Resolve(pattern, query.filter));
   HOMING_ASSIGN_OR_RETURN(const JourneySelection selection,
                           SelectJourneys(covered, pattern, robot));
   HOMING_ASSIGN_OR_RETURN(SeenNow now, See(query, selection.options, limits));

@@ -30,8 +30,9 @@ struct SeenFingerprints {
 using QueryView = std::variant<std::monostate, FramePair, FlowField, SeenFingerprints>;
 
 struct LandmarkQuery {
-  // Name or pattern.
+  // Name or pattern; of a pattern, those that the filter lets through.
   std::string journey;
+  JourneyFilter filter;
   Travel travel = Travel::kReturn;
   // Indexed by Side of the ROBOT.
   std::array<QueryView, 2> views;

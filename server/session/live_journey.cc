@@ -6,6 +6,7 @@
 #include "absl/strings/str_cat.h"
 #include "homing/status_macros.h"
 #include "server/session/error_reason.h"
+#include "server/session/fleet_index.h"
 
 namespace homing::server {
 namespace {
@@ -27,8 +28,8 @@ void CountStep(const JourneyStep& step, storage::JourneyRecord* record) {
 
 }  // namespace
 
-LiveJourney::LiveJourney(storage::JourneyRecord record, JourneyMap map)
-    : name_(record.name), map_(std::move(map)), record_(std::move(record)) {
+LiveJourney::LiveJourney(storage::JourneyRecord record, JourneyMap map, FleetIndex* index)
+    : name_(record.name), index_(index), map_(std::move(map)), record_(std::move(record)) {
   record_.step_count = map_.step_count();
   record_.landmark_count = static_cast<std::int32_t>(map_.landmarks().size());
   record_.fingerprint_count = static_cast<std::int64_t>(map_.all_fingerprints().size());
@@ -42,6 +43,20 @@ storage::JourneyRecord LiveJourney::record() const {
 bool LiveJourney::deleted() const {
   const std::lock_guard lock(mutex_);
   return deleted_;
+}
+
+std::int64_t LiveJourney::MemoryBytes() const {
+  constexpr std::int64_t kBytesAJourney = 2048;
+  const std::lock_guard lock(mutex_);
+  const auto steps = static_cast<std::int64_t>(sizeof(std::int64_t) + 2 * sizeof(FlowProfile));
+  return kBytesAJourney + record_.step_count * steps +
+         record_.landmark_count * static_cast<std::int64_t>(sizeof(Landmark)) +
+         record_.fingerprint_count * static_cast<std::int64_t>(sizeof(Fingerprint));
+}
+
+bool LiveJourney::IsIdle(TimePoint now) const {
+  const std::lock_guard lock(mutex_);
+  return appends_under_way_ == 0 && lease_.CheckFree("", now).ok();
 }
 
 absl::Status LiveJourney::CheckWritable() const {
@@ -78,6 +93,12 @@ absl::StatusOr<std::uint64_t> LiveJourney::Claim(const std::string& writer_id, T
   return claim;
 }
 
+absl::Status LiveJourney::CheckClaim(const std::string& writer_id, TimePoint now) const {
+  const std::lock_guard lock(mutex_);
+  HOMING_RETURN_IF_ERROR(CheckWritable());
+  return lease_.CheckFree(writer_id, now);
+}
+
 absl::Status LiveJourney::Renew(std::uint64_t claim, TimePoint now) {
   const std::lock_guard lock(mutex_);
   if (!lease_.Holds(claim)) {
@@ -97,9 +118,9 @@ absl::Status LiveJourney::BeginAppend(std::uint64_t claim) {
 }
 
 void LiveJourney::EndAppend(const storage::JourneyAppend& append, const absl::Status& status) {
+  std::optional<JourneySettings> indexed;
   {
     const std::lock_guard lock(mutex_);
-    --appends_under_way_;
     if (status.ok()) {
       record_.next_sequence = append.sequence + 1;
       record_.input = append.input;
@@ -116,8 +137,17 @@ void LiveJourney::EndAppend(const storage::JourneyAppend& append, const absl::St
       if (append.step) {
         CountStep(*append.step, &record_);
         unabsorbed_.push_back(*append.step);
+        if (index_ != nullptr) indexed = record_.settings;
       }
     }
+  }
+  if (indexed) {
+    index_->Appended(name_, *indexed, *append.step);
+  }
+  {
+    // Last: who deletes the journey waits for it, and tells the index then.
+    const std::lock_guard lock(mutex_);
+    --appends_under_way_;
   }
   quiet_.notify_all();
   if (map_mutex_.try_lock()) {

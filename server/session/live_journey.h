@@ -18,18 +18,25 @@
 
 namespace homing::server {
 
+class FleetIndex;
+
 // Holds nothing that is not durable. Thread-safe. Steps that were committed wait in a short list
 // until a reader or an idle moment takes them into the map: the thread that commits never waits for
 // those who localise. (std::shared_mutex rather than absl::Mutex: ThreadSanitizer sees it.)
 class LiveJourney {
  public:
-  LiveJourney(storage::JourneyRecord record, JourneyMap map);
+  // `index`, unless null, is told of each step and must outlive the journey.
+  LiveJourney(storage::JourneyRecord record, JourneyMap map, FleetIndex* index = nullptr);
 
   const std::string& name() const { return name_; }
   // With counts as of now.
   storage::JourneyRecord record() const;
   JourneySettings settings() const { return record().settings; }
   bool deleted() const;
+  // What the map takes, about.
+  std::int64_t MemoryBytes() const;
+  // No writer's lease lives at `now`, and nothing is on its way to the disk.
+  bool IsIdle(TimePoint now) const;
 
   // -- Writing. A claim is what a stream holds from its first message on.
 
@@ -38,6 +45,8 @@ class LiveJourney {
   // finished; ABORTED: another writer's lease lives; NOT_FOUND: deleted.
   absl::StatusOr<std::uint64_t> Claim(const std::string& writer_id, TimePoint now,
                                       WriterLease::Evict evict);
+  // Whether Claim would be refused, and why.
+  absl::Status CheckClaim(const std::string& writer_id, TimePoint now) const;
   // Renews the lease. ABORTED: the claim is over.
   absl::Status Renew(std::uint64_t claim, TimePoint now);
   // Every append handed to the disk is between these two. ABORTED: the claim is over.
@@ -67,6 +76,7 @@ class LiveJourney {
   void AbsorbSteps();
 
   const std::string name_;
+  FleetIndex* const index_;
 
   // Locked before mutex_.
   std::shared_mutex map_mutex_;

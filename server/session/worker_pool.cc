@@ -53,6 +53,11 @@ void WorkerPool::Run(Task task) {
   changed_.notify_one();
 }
 
+std::size_t WorkerPool::waiting() const {
+  const std::lock_guard lock(mutex_);
+  return tasks_.size();
+}
+
 void WorkerPool::Work() {
   std::unique_lock lock(mutex_);
   while (true) {

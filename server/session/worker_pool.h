@@ -30,12 +30,14 @@ class WorkerPool {
   [[nodiscard]] bool TryRun(Task task);
   // Never refused: the caller bounds itself (a Strand waits at most once).
   void Run(Task task);
+  // Tasks that wait.
+  std::size_t waiting() const;
 
  private:
   void Work();
 
   const std::size_t max_waiting_;
-  std::mutex mutex_;
+  mutable std::mutex mutex_;
   std::condition_variable changed_;
   std::deque<Task> tasks_;
   bool stopping_ = false;

@@ -2,15 +2,20 @@
 
 #include <gtest/gtest.h>
 
+#include <fstream>
+
 #include "client/rpc_status.h"
 #include "google/rpc/error_details.pb.h"
 #include "tests/client/fake_journey_service.h"
 #include "tests/support/status_matchers.h"
+#include "tests/support/temporary_folder.h"
 
 namespace homing::client {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 grpc::Status WithRetryInfo(grpc::StatusCode code, int seconds) {
   google::rpc::RetryInfo info;
@@ -51,6 +56,43 @@ TEST(ConnectionTest, NamesThePemFileThatIsMissing) {
   options.tls_ca = "/does/not/exist.pem";
   EXPECT_THAT(Connection::Open(options),
               StatusIs(absl::StatusCode::kNotFound, HasSubstr("/does/not/exist.pem")));
+}
+
+std::string TokenFile(const TemporaryFolder& folder, const std::string& text) {
+  std::ofstream(folder.File("token")) << text;
+  return folder.File("token");
+}
+
+TEST(ConnectionTest, SendsNoTokenInPlainTextOffThisMachine) {
+  const TemporaryFolder folder;
+  ConnectionOptions options;
+  options.token_file = TokenFile(folder, "t0ken\n");
+  for (const char* address : {"127.0.0.1:1", "localhost:1", "[::1]:1", "unix:/tmp/x"}) {
+    options.address = address;
+    EXPECT_THAT(Connection::Open(options), IsOk()) << address;
+  }
+  for (const char* address : {"10.0.0.1:1", "127.0.0.1.example.org:1", "localhost.example.org:1"}) {
+    options.address = address;
+    EXPECT_THAT(Connection::Open(options),
+                StatusIs(absl::StatusCode::kInvalidArgument,
+                         AllOf(HasSubstr("plain text"), Not(HasSubstr("t0ken")))))
+        << address;
+  }
+  options.insecure = true;
+  EXPECT_THAT(Connection::Open(options), IsOk());
+}
+
+TEST(ConnectionTest, ATokenIsOnePrintableWord) {
+  const TemporaryFolder folder;
+  ConnectionOptions options;
+  for (const char* text : {"", "\n", "two words", "a\nb"}) {
+    options.token_file = TokenFile(folder, text);
+    EXPECT_THAT(Connection::Open(options),
+                StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("--token-file")));
+  }
+  options.token_file = folder.File("none");
+  EXPECT_THAT(Connection::Open(options),
+              StatusIs(absl::StatusCode::kNotFound, HasSubstr("--token-file")));
 }
 
 TEST(ConnectionTest, RetriesUntilTheCallSucceeds) {

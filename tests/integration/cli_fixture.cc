@@ -35,10 +35,12 @@ CliTest::~CliTest() {
   std::filesystem::remove_all(folder_);
 }
 
-void CliTest::StartServer(const std::string& database) {
+void CliTest::StartServer(const std::string& database, const std::vector<std::string>& more) {
   const std::string listen = address_.empty() ? "127.0.0.1:0" : address_;
-  server_ = std::make_unique<Program>(std::vector<std::string>{
-      HOMING_SERVER_PROGRAM, "--listen", listen, "--database", "sqlite:" + Path(database)});
+  std::vector<std::string> command = {HOMING_SERVER_PROGRAM, "--listen", listen, "--database",
+                                      "sqlite:" + Path(database)};
+  command.insert(command.end(), more.begin(), more.end());
+  server_ = std::make_unique<Program>(command);
   while (const auto line = server_->ReadLine()) {
     const std::size_t found = line->find(kListening);
     if (found == std::string::npos) continue;

@@ -29,8 +29,9 @@ class CliTest : public ::testing::Test {
   ~CliTest() override;
 
   // Starts the server on `database` (a name in the test's folder); the first time on a port of its
-  // choice, later on the same one.
-  void StartServer(const std::string& database = "homing.db");
+  // choice, later on the same one. `more`: further arguments of it.
+  void StartServer(const std::string& database = "homing.db",
+                   const std::vector<std::string>& more = {});
   // kill -9.
   void KillServer();
 

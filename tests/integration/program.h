@@ -27,6 +27,7 @@ class Program {
   // Lines of stdout so far.
   const std::vector<std::string>& lines() const { return lines_; }
   std::string Stderr() const;
+  pid_t pid() const { return pid_; }
 
  private:
   pid_t pid_ = -1;

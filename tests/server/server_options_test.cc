@@ -114,8 +114,41 @@ TEST_F(ServerOptionsTest, WhatItPrintsIsAFileThatGivesTheSame) {
   EXPECT_EQ(ToToml(Parse({"--config", file.c_str()}).options), ToToml(options));
 }
 
+TEST_F(ServerOptionsTest, MetricsAreOnLoopbackUnlessSaidOtherwise) {
+  EXPECT_EQ(Parse({}).options.http, "127.0.0.1:8080");
+  EXPECT_TRUE(Parse({}).options.http_optional);
+  const std::string file = WriteFile("http = \"off\"\nmax-robot-bytes = \"2KiB\"\n");
+  EXPECT_FALSE(HasHttp(Parse({"--config", file.c_str()}).options));
+  EXPECT_EQ(Parse({"--config", file.c_str()}).options.limits.max_robot_bytes, 2048);
+  EXPECT_FALSE(HasHttp(Parse({"--http", "off"}).options));
+  ServerOptions options = Parse({"--http", "0.0.0.0:1"}).options;
+  EXPECT_FALSE(options.http_optional);
+  EXPECT_THAT(Validate(options),
+              StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("http is")));
+  options.insecure = true;
+  EXPECT_THAT(Validate(options), IsOk());
+}
+
+TEST_F(ServerOptionsTest, SubcommandsKnowTheirOrders) {
+  ServerCommand command = Parse({"certs", "--out", "pki", "--robot", "a", "--robot", "b"});
+  EXPECT_EQ(command.action, ServerCommand::Action::kCerts);
+  EXPECT_EQ(command.certificates.robots.size(), 2u);
+  command = Parse({"token", "robots/a", "--out", "t", "--tokens", "f"});
+  EXPECT_EQ(command.action, ServerCommand::Action::kToken);
+  EXPECT_EQ(command.token.identity, "robots/a");
+  EXPECT_EQ(command.options.tokens, "f");
+}
+
 TEST_F(ServerOptionsTest, LimitsAreChecked) {
   ServerOptions options;
+  options.limits.max_robot_rate = -1;
+  EXPECT_THAT(Validate(options),
+              StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("max-robot-rate")));
+  options = {};
+  options.tls_crl_dir = "crl";
+  EXPECT_THAT(Validate(options),
+              StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("tls-client-ca")));
+  options = {};
   options.max_message = 1;
   EXPECT_THAT(Validate(options),
               StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("max-message")));

@@ -123,10 +123,12 @@ TEST_F(DamageTest, AFullDiskIsToldAndStoresNothingByHalves) {
   const auto map = store->LoadMap(kJourney);
   ASSERT_THAT(map, IsOk());
   EXPECT_TRUE(SameMap(*map, MapOf(OddSettings(), MakeSteps(static_cast<int>(stored)))));
+  EXPECT_THAT(store->WriteHealth(), StatusIs(absl::StatusCode::kResourceExhausted, HasSubstr("")));
   // Room again.
   ASSERT_THAT(store->DeleteJourney(kJourney), IsOk());
   ASSERT_THAT(store->CreateJourney(Record(kJourney)), IsOk());
   AppendAll(*store, kJourney, MakeSteps(10));
+  EXPECT_THAT(store->WriteHealth(), IsOk());
 }
 
 TEST_F(DamageTest, AFileThatAnotherProcessKeepsLockedIsUnavailable) {
@@ -142,7 +144,17 @@ TEST_F(DamageTest, AFileThatAnotherProcessKeepsLockedIsUnavailable) {
     return absl::OkStatus();
   }),
               IsOk());
+  EXPECT_FALSE((*store)->WriteHealth().ok());
+  EXPECT_THAT((*store)->ProbeWrite(), IsOk());
   EXPECT_THAT((*store)->FinishJourney(kJourney), IsOk());
+}
+
+TEST_F(DamageTest, ARefusalIsNoFaultOfTheStore) {
+  MakeFile(1);
+  auto store = OpenOrDie(folder_.Url());
+  EXPECT_FALSE(store->DeleteJourney("robots/r/journeys/none").ok());
+  EXPECT_FALSE(store->CreateJourney(Record(kJourney)).ok());
+  EXPECT_THAT(store->WriteHealth(), IsOk());
 }
 
 }  // namespace

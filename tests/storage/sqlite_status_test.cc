@@ -25,13 +25,26 @@ TEST(StatusFromSqlite, TellsTheCallerWhatToDo) {
       {SQLITE_READONLY, absl::StatusCode::kFailedPrecondition},
       {SQLITE_READONLY_DBMOVED, absl::StatusCode::kFailedPrecondition},
       {SQLITE_CANTOPEN, absl::StatusCode::kFailedPrecondition},
-      {SQLITE_IOERR_FSYNC, absl::StatusCode::kInternal},
+      {SQLITE_IOERR_FSYNC, absl::StatusCode::kUnavailable},
+      {SQLITE_IOERR_READ, absl::StatusCode::kUnavailable},
+      {SQLITE_IOERR_SHMSIZE, absl::StatusCode::kResourceExhausted},
+      {SQLITE_IOERR_CORRUPTFS, absl::StatusCode::kUnavailable},
+      {SQLITE_IOERR_DATA, absl::StatusCode::kDataLoss},
       {SQLITE_MISUSE, absl::StatusCode::kInternal}};
   for (const auto& [code, expected] : codes) {
     EXPECT_THAT(StatusFromSqlite(code, "what happened"),
                 StatusIs(expected, ::testing::HasSubstr("what happened")))
         << code;
   }
+}
+
+TEST(StatusFromSqlite, TellsFaultsOfTheStoreFromRefusals) {
+  for (const int fault : {SQLITE_FULL, SQLITE_IOERR_WRITE, SQLITE_READONLY, SQLITE_BUSY}) {
+    EXPECT_TRUE(IsStoreFault(StatusFromSqlite(fault, ""))) << fault;
+  }
+  EXPECT_FALSE(IsStoreFault(StatusFromSqlite(SQLITE_CONSTRAINT_UNIQUE, "")));
+  EXPECT_FALSE(IsStoreFault(absl::ResourceExhaustedError("too many requests")));
+  EXPECT_FALSE(IsStoreFault(absl::OkStatus()));
 }
 
 }  // namespace

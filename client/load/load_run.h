@@ -1,0 +1,58 @@
+// A load on a server: many robots, each on a connection of its own, at a steady rate. Source: own
+// design.
+#ifndef CLIENT_LOAD_LOAD_RUN_H_
+#define CLIENT_LOAD_LOAD_RUN_H_
+
+#include <functional>
+#include <stop_token>
+#include <string>
+
+#include "absl/status/statusor.h"
+#include "client/connection.h"
+#include "client/load/load_robot.h"
+
+namespace homing::client {
+
+struct LoadOptions {
+  // [1, 100'000].
+  int robots = 100;
+  // Observations a second of each robot. (0, 1000].
+  double rate = 10;
+  double seconds = 10;
+  // Else flow vectors.
+  bool frames = false;
+  // Of each observation. [0, 100'000].
+  int vectors = 200;
+  // Else they record.
+  bool localize = false;
+  // What localising robots share: how many journeys of how many steps; they are recorded first.
+  int journeys = 10;
+  int steps = 2000;
+  // First part of the robots' ids; a number follows.
+  std::string prefix = "bench";
+  // Make the journeys, and leave it at that.
+  bool prepare_only = false;
+};
+
+// INVALID_ARGUMENT naming field, value and limit.
+absl::Status Validate(const LoadOptions& options);
+
+struct LoadResult {
+  LoadCounts counts;
+  // From the first observation's time to the last answer.
+  double seconds = 0;
+  // Robots whose stream did not end well.
+  int failed_robots = 0;
+};
+
+// The errors of single robots are in the result. CANCELLED: stopped. Others as the calls.
+absl::StatusOr<LoadResult> RunLoad(const ConnectionOptions& connection, const LoadOptions& options,
+                                   const std::function<void(const std::string&)>& log,
+                                   const std::stop_token& stop);
+
+// As many open files as the system allows: each robot takes one.
+void RaiseOpenFiles();
+
+}  // namespace homing::client
+
+#endif  // CLIENT_LOAD_LOAD_RUN_H_

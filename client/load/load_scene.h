@@ -1,0 +1,31 @@
+// What the robots of a load see. Source: own design.
+#ifndef CLIENT_LOAD_LOAD_SCENE_H_
+#define CLIENT_LOAD_LOAD_SCENE_H_
+
+#include <cstdint>
+#include <vector>
+
+#include "absl/status/statusor.h"
+#include "homing/v1/types.pb.h"
+
+namespace homing::client {
+
+// The observations of one route, made once and given out over and over.
+class LoadScene {
+ public:
+  // Flow vectors of one camera: landmarks drift across an image of 640 x 480, other ones on each
+  // route.
+  static LoadScene WithFlow(int route, int steps, int vectors);
+  // Frames of the simulated street, left camera.
+  static absl::StatusOr<LoadScene> WithFrames(int count);
+
+  // As observation `sequence`, which is one past the end begins anew.
+  void Fill(std::int64_t sequence, v1::Observation* observation) const;
+
+ private:
+  std::vector<v1::Observation> observations_;
+};
+
+}  // namespace homing::client
+
+#endif  // CLIENT_LOAD_LOAD_SCENE_H_

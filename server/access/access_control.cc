@@ -1,0 +1,127 @@
+#include "server/access/access_control.h"
+
+#include <chrono>
+#include <filesystem>
+#include <utility>
+
+#include "absl/strings/match.h"
+#include "absl/strings/str_cat.h"
+#include "absl/strings/strip.h"
+#include "homing/status_macros.h"
+#include "server/session/error_reason.h"
+
+namespace homing::server {
+namespace {
+
+constexpr std::size_t kScheme = sizeof("Bearer ") - 1;
+
+absl::Status Unauthenticated(const char* reason, const std::string& message) {
+  return WithReason(absl::UnauthenticatedError(message), {reason, {}});
+}
+
+// A file that is being written may be half of what it will be: it is read once nobody has touched
+// it for a second.
+bool IsSettled(const std::string& path) {
+  std::error_code error;
+  const auto written = std::filesystem::last_write_time(path, error);
+  const auto age = std::filesystem::file_time_type::clock::now() - written;
+  return error || age > std::chrono::seconds(1) || age < std::chrono::seconds(-1);
+}
+
+}  // namespace
+
+AccessControl::AccessControl(const AccessFiles& files)
+    : files_(files),
+      is_open_(files.tokens.empty() && files.roles.empty() && files.client_ca.empty()) {}
+
+absl::StatusOr<std::unique_ptr<AccessControl>> AccessControl::Open(const AccessFiles& files) {
+  std::unique_ptr<AccessControl> access(new AccessControl(files));
+  if (!files.client_ca.empty()) {
+    HOMING_ASSIGN_OR_RETURN(access->certificates_,
+                            ClientCertificates::Open(files.client_ca, files.crl_dir));
+  }
+  HOMING_RETURN_IF_ERROR(access->ReadFiles([](const std::string& /*path*/) { return true; }));
+  return access;
+}
+
+absl::Status AccessControl::Reload() { return ReadFiles(IsSettled); }
+
+absl::Status AccessControl::ReadFiles(bool (*is_due)(const std::string& path)) {
+  absl::Status status;
+  if (!files_.tokens.empty() && is_due(files_.tokens)) {
+    absl::StatusOr<TokenBook> book = TokenBook::Read(files_.tokens);
+    status.Update(book.status());
+    if (book.ok()) {
+      const std::lock_guard lock(mutex_);
+      tokens_ = std::make_shared<TokenBook>(*std::move(book));
+    }
+  }
+  if (!files_.roles.empty() && is_due(files_.roles)) {
+    absl::StatusOr<RoleBook> book = RoleBook::Read(files_.roles);
+    status.Update(book.status());
+    if (book.ok()) {
+      const std::lock_guard lock(mutex_);
+      roles_ = std::make_shared<RoleBook>(*std::move(book));
+    }
+  }
+  if (certificates_) {
+    status.Update(certificates_->Reload());
+  }
+  return status;
+}
+
+absl::Status AccessControl::CheckCertificate(const std::string& chain_pem) const {
+  return certificates_ ? certificates_->Check(chain_pem) : absl::OkStatus();
+}
+
+absl::StatusOr<std::string> AccessControl::IdentityOfToken(const Credentials& credentials) const {
+  const std::string& header = credentials.authorizations.front();
+  if (credentials.authorizations.size() > 1 ||
+      !absl::EqualsIgnoreCase(header.substr(0, kScheme), "Bearer ")) {
+    return Unauthenticated("BAD_TOKEN", "authorization must be one \"Bearer TOKEN\"");
+  }
+  std::shared_ptr<const TokenBook> tokens;
+  {
+    const std::lock_guard lock(mutex_);
+    tokens = tokens_;
+  }
+  auto identity = tokens->Find(header.substr(kScheme));
+  if (!identity) {
+    return Unauthenticated("BAD_TOKEN", "the token is not one of this server's");
+  }
+  return *std::move(identity);
+}
+
+absl::StatusOr<std::string> AccessControl::IdentityOfCertificate(
+    const Credentials& credentials) const {
+  HOMING_RETURN_IF_ERROR(CheckCertificate(credentials.certificate_pem));
+  return IdentityOfUris(credentials.uris);
+}
+
+absl::StatusOr<Caller> AccessControl::Identify(const Credentials& credentials) const {
+  if (is_open_) {
+    return Caller{"", Role::kAdmin};
+  }
+  const bool has_certificate = certificates_ && !credentials.certificate_pem.empty();
+  const bool has_token = !credentials.authorizations.empty();
+  if (!has_certificate && !has_token) {
+    return Unauthenticated("NO_CREDENTIALS",
+                           "who calls is not known; a client certificate or a token is required");
+  }
+  Caller caller;
+  if (has_certificate) {
+    HOMING_ASSIGN_OR_RETURN(caller.identity, IdentityOfCertificate(credentials));
+  }
+  if (has_token) {
+    HOMING_ASSIGN_OR_RETURN(std::string identity, IdentityOfToken(credentials));
+    if (has_certificate && identity != caller.identity) {
+      return Unauthenticated("BAD_TOKEN", "token and certificate are of different identities");
+    }
+    caller.identity = std::move(identity);
+  }
+  const std::lock_guard lock(mutex_);
+  caller.role = roles_->Find(caller.identity);
+  return caller;
+}
+
+}  // namespace homing::server

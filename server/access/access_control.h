@@ -1,0 +1,61 @@
+// From what came with a call to who calls. Source: own design.
+#ifndef SERVER_ACCESS_ACCESS_CONTROL_H_
+#define SERVER_ACCESS_ACCESS_CONTROL_H_
+
+#include <memory>
+#include <mutex>
+#include <string>
+
+#include "absl/status/status.h"
+#include "absl/status/statusor.h"
+#include "server/access/caller.h"
+#include "server/access/client_certificates.h"
+#include "server/access/role_book.h"
+#include "server/access/token_book.h"
+
+namespace homing::server {
+
+// Paths; empty: not used.
+struct AccessFiles {
+  std::string tokens;
+  std::string roles;
+  std::string client_ca;
+  std::string crl_dir;
+};
+
+// Thread-safe.
+class AccessControl {
+ public:
+  // Without any file everyone who reaches the server is an admin. INVALID_ARGUMENT.
+  static absl::StatusOr<std::unique_ptr<AccessControl>> Open(const AccessFiles& files);
+
+  // True when nobody is asked who they are.
+  bool is_open() const { return is_open_; }
+
+  // A certificate, a token, or both of the same identity. UNAUTHENTICATED: neither, or one that is
+  // not good (any more).
+  absl::StatusOr<Caller> Identify(const Credentials& credentials) const;
+  // As ClientCertificates::Check; OK when no client CA is set.
+  absl::Status CheckCertificate(const std::string& chain_pem) const;
+
+  // Reads all files again; those that cannot be read, or are just being written, stay as they were.
+  // The first error.
+  absl::Status Reload();
+
+ private:
+  explicit AccessControl(const AccessFiles& files);
+  absl::Status ReadFiles(bool (*is_due)(const std::string& path));
+  absl::StatusOr<std::string> IdentityOfToken(const Credentials& credentials) const;
+  absl::StatusOr<std::string> IdentityOfCertificate(const Credentials& credentials) const;
+
+  const AccessFiles files_;
+  const bool is_open_;
+  std::unique_ptr<ClientCertificates> certificates_;
+  mutable std::mutex mutex_;
+  std::shared_ptr<const TokenBook> tokens_ = std::make_shared<TokenBook>();
+  std::shared_ptr<const RoleBook> roles_ = std::make_shared<RoleBook>();
+};
+
+}  // namespace homing::server
+
+#endif  // SERVER_ACCESS_ACCESS_CONTROL_H_

@@ -1,0 +1,103 @@
+#include "server/access/authorization.h"
+
+#include <algorithm>
+
+#include "absl/strings/match.h"
+#include "absl/strings/str_cat.h"
+#include "homing/status_macros.h"
+#include "server/session/error_reason.h"
+#include "server/session/resource_name.h"
+
+namespace homing::server {
+namespace {
+
+absl::Status Denied(const Caller& caller, Rpc rpc, const std::string& resource) {
+  const std::string_view method = TraitsOf(rpc).method;
+  const std::string on = resource.empty() ? "" : absl::StrCat(" of \"", resource, "\"");
+  return WithReason(
+      absl::PermissionDeniedError(
+          absl::StrCat(caller.identity, " (", NameOf(caller.role), ") is not allowed ",
+                       std::string(method.substr(method.find('/') + 1)), on)),
+      {"NOT_ALLOWED", {{"identity", caller.identity}, {"role", NameOf(caller.role)}}});
+}
+
+Standing StandingOf(const Caller& caller, const storage::JourneyRecord& record) {
+  const std::string robot = caller.robot();
+  if (!robot.empty() && absl::StartsWith(record.name, absl::StrCat("robots/", robot, "/"))) {
+    return Standing::kOwner;
+  }
+  const bool listed = std::any_of(
+      record.readers.begin(), record.readers.end(),
+      [&](const std::string& reader) { return reader == "*" || reader == caller.identity; });
+  return listed ? Standing::kReader : Standing::kOther;
+}
+
+// What a request names.
+struct Target {
+  JourneyName name;
+  // Only the robot is named.
+  bool is_robot = false;
+};
+
+absl::StatusOr<Target> ParseTarget(Rpc rpc, const std::string& resource) {
+  const std::string field(TraitsOf(rpc).field);
+  if (rpc == Rpc::kCreateJourney || rpc == Rpc::kListJourneys) {
+    HOMING_ASSIGN_OR_RETURN(const std::string robot,
+                            ParseRobotName(resource, field, rpc == Rpc::kListJourneys));
+    return Target{{robot, kWildcard}, true};
+  }
+  const bool patterns = TraitsOf(rpc).right == Right::kLocalize;
+  HOMING_ASSIGN_OR_RETURN(const JourneyName name, patterns ? ParseJourneyPattern(resource, field)
+                                                           : ParseJourneyName(resource, field));
+  return Target{name, false};
+}
+
+// Of a name that stands alone, without looking it up: its owner, or not.
+Standing OwnerOrOther(const Caller& caller, const JourneyName& name) {
+  return name.robot == caller.robot() ? Standing::kOwner : Standing::kOther;
+}
+
+}  // namespace
+
+absl::Status Authorize(const Caller& caller, Rpc rpc, const std::string& resource,
+                       JourneyCatalog* catalog) {
+  const Right right = TraitsOf(rpc).right;
+  if (AllowsAll(caller.role, right)) {
+    return absl::OkStatus();
+  }
+  // Nothing that this caller could name would do.
+  if (!Allows(caller.role, right, Standing::kOwner)) {
+    return Denied(caller, rpc, resource);
+  }
+  HOMING_ASSIGN_OR_RETURN(const Target target, ParseTarget(rpc, resource));
+  const bool reads = Allows(caller.role, right, Standing::kReader);
+  if (reads && (target.is_robot || target.name.is_pattern())) {
+    return absl::OkStatus();
+  }
+  if (Allows(caller.role, right, OwnerOrOther(caller, target.name))) {
+    return absl::OkStatus();
+  }
+  if (reads) {
+    const auto record = catalog->Get(target.name.ToString());
+    if (record.ok() && Allows(caller.role, right, StandingOf(caller, *record))) {
+      return absl::OkStatus();
+    }
+    // A store that cannot be read is told as such; that there is no such journey is not.
+    if (!record.ok() && !absl::IsNotFound(record.status())) {
+      return record.status();
+    }
+  }
+  return Denied(caller, rpc, resource);
+}
+
+JourneyFilter JourneysFor(const Caller& caller, Rpc rpc) {
+  const Right right = TraitsOf(rpc).right;
+  if (AllowsAll(caller.role, right)) {
+    return nullptr;
+  }
+  return [caller, right](const storage::JourneyRecord& record) {
+    return Allows(caller.role, right, StandingOf(caller, record));
+  };
+}
+
+}  // namespace homing::server

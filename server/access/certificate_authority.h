@@ -1,0 +1,61 @@
+// A certificate authority for trying things out, and for a fleet without one of its own.
+// Source: own design; RFC 5280 by OpenSSL.
+#ifndef SERVER_ACCESS_CERTIFICATE_AUTHORITY_H_
+#define SERVER_ACCESS_CERTIFICATE_AUTHORITY_H_
+
+#include <chrono>
+#include <string>
+#include <vector>
+
+#include "absl/status/status.h"
+#include "absl/status/statusor.h"
+#include "server/access/openssl_handle.h"
+
+namespace homing::server {
+
+// PEM.
+struct KeyAndCertificate {
+  std::string key;
+  std::string certificate;
+};
+
+struct CertificateRequest {
+  std::string common_name;
+  // As OpenSSL writes them: "URI:homing:robots/r1", "DNS:localhost", "IP:127.0.0.1".
+  std::vector<std::string> names;
+  // For a server, else for a client.
+  bool is_server = false;
+  // From now; negative: the past.
+  std::chrono::seconds begins_in{-300};
+  std::chrono::seconds ends_in = std::chrono::hours(24 * 365);
+};
+
+// Keys are P-256. INTERNAL: OpenSSL fails.
+class CertificateAuthority {
+ public:
+  // A new one.
+  static absl::StatusOr<CertificateAuthority> Make(const std::string& common_name,
+                                                   std::chrono::seconds lifetime);
+  // INVALID_ARGUMENT: not PEM, or the key of another certificate.
+  static absl::StatusOr<CertificateAuthority> FromPem(const KeyAndCertificate& pem);
+
+  absl::StatusOr<KeyAndCertificate> pem() const;
+  // INVALID_ARGUMENT: a name OpenSSL does not take.
+  absl::StatusOr<KeyAndCertificate> Issue(const CertificateRequest& request) const;
+  // A revocation list (PEM) good for `lifetime`: those of `previous` (PEM; may be empty) and
+  // `revoked` (PEM certificates). INVALID_ARGUMENT: not PEM.
+  absl::StatusOr<std::string> Revoke(const std::string& previous,
+                                     const std::vector<std::string>& revoked,
+                                     std::chrono::seconds lifetime) const;
+
+ private:
+  CertificateAuthority(OpensslPtr<EVP_PKEY> key, OpensslPtr<X509> certificate)
+      : key_(std::move(key)), certificate_(std::move(certificate)) {}
+
+  OpensslPtr<EVP_PKEY> key_;
+  OpensslPtr<X509> certificate_;
+};
+
+}  // namespace homing::server
+
+#endif  // SERVER_ACCESS_CERTIFICATE_AUTHORITY_H_

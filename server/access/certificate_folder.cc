@@ -1,0 +1,130 @@
+#include "server/access/certificate_folder.h"
+
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <optional>
+#include <sstream>
+
+#include "absl/strings/str_cat.h"
+#include "homing/range_check.h"
+#include "homing/status_macros.h"
+#include "server/access/certificate_authority.h"
+#include "server/access/identity.h"
+#include "server/access/private_file.h"
+
+namespace homing::server {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string Read(const fs::path& path) {
+  const std::ifstream file(path, std::ios::binary);
+  std::ostringstream text;
+  text << file.rdbuf();
+  return file ? text.str() : std::string();
+}
+
+// A folder in the making.
+class Folder {
+ public:
+  Folder(const fs::path& root, int days) : root_(root), lifetime_(std::chrono::hours(24 * days)) {}
+
+  absl::Status OpenAuthority() {
+    const KeyAndCertificate pem = {Read(root_ / "ca.key"), Read(root_ / "ca.pem")};
+    if (!pem.certificate.empty()) {
+      HOMING_ASSIGN_OR_RETURN(CertificateAuthority known, CertificateAuthority::FromPem(pem));
+      authority_.emplace(std::move(known));
+      return absl::OkStatus();
+    }
+    HOMING_ASSIGN_OR_RETURN(CertificateAuthority made,
+                            CertificateAuthority::Make("Homing test authority", lifetime_));
+    authority_.emplace(std::move(made));
+    HOMING_ASSIGN_OR_RETURN(const KeyAndCertificate fresh, authority_->pem());
+    return Write("ca", fresh);
+  }
+
+  absl::Status MakeServer(const std::vector<std::string>& hosts) {
+    if (hosts.empty() && fs::exists(root_ / "server.pem")) {
+      return absl::OkStatus();
+    }
+    CertificateRequest request = {
+        "homing-server", {"DNS:localhost", "IP:127.0.0.1", "IP:::1"}, true};
+    for (const std::string& host : hosts) {
+      const bool is_address = host.find(':') != std::string::npos ||
+                              host.find_first_not_of("0123456789.") == std::string::npos;
+      request.names.push_back((is_address ? "IP:" : "DNS:") + host);
+    }
+    return Make("server", request);
+  }
+
+  absl::Status MakeClient(const std::string& identity) {
+    HOMING_RETURN_IF_ERROR(CheckIdentity(identity, "robot or operator"));
+    return Make(identity, {identity, {"URI:" + UriOf(identity)}, false});
+  }
+
+  absl::Status Revoke(const std::vector<std::string>& identities) {
+    std::vector<std::string> certificates;
+    for (const std::string& identity : identities) {
+      HOMING_RETURN_IF_ERROR(CheckIdentity(identity, "revoke"));
+      certificates.push_back(Read(root_ / (identity + ".pem")));
+      if (certificates.back().empty()) {
+        return absl::InvalidArgumentError(
+            absl::StrCat("revoke is \"", identity, "\"; the folder holds no certificate of it"));
+      }
+    }
+    const fs::path path = root_ / "crl" / "homing.pem";
+    HOMING_ASSIGN_OR_RETURN(const std::string list,
+                            authority_->Revoke(Read(path), certificates, lifetime_));
+    return WriteFile(path, list);
+  }
+
+  const std::vector<std::string>& written() const { return written_; }
+
+ private:
+  absl::Status Make(const std::string& name, CertificateRequest request) {
+    request.ends_in = lifetime_;
+    HOMING_ASSIGN_OR_RETURN(const KeyAndCertificate made, authority_->Issue(request));
+    return Write(name, made);
+  }
+  absl::Status Write(const std::string& name, const KeyAndCertificate& pem) {
+    HOMING_RETURN_IF_ERROR(WriteFile(root_ / (name + ".key"), pem.key));
+    return WriteFile(root_ / (name + ".pem"), pem.certificate);
+  }
+  absl::Status WriteFile(const fs::path& path, const std::string& text) {
+    std::error_code error;
+    fs::create_directories(path.parent_path(), error);
+    HOMING_RETURN_IF_ERROR(WritePrivateFile(path.string(), text));
+    if (path.extension() == ".pem") {
+      // Certificates and lists are no secret, and the server may be another user's.
+      fs::permissions(path, fs::perms(0644), error);
+    }
+    written_.push_back(path.string());
+    return absl::OkStatus();
+  }
+
+  const fs::path root_;
+  const std::chrono::seconds lifetime_;
+  std::optional<CertificateAuthority> authority_;
+  std::vector<std::string> written_;
+};
+
+}  // namespace
+
+absl::StatusOr<std::vector<std::string>> MakeCertificates(const CertificateOrder& order) {
+  HOMING_RETURN_IF_ERROR(CheckRange("days", order.days, 1, 36'500));
+  Folder folder(order.folder, order.days);
+  HOMING_RETURN_IF_ERROR(folder.OpenAuthority());
+  // First, so that a certificate made anew is not the one revoked.
+  HOMING_RETURN_IF_ERROR(folder.Revoke(order.revoked));
+  HOMING_RETURN_IF_ERROR(folder.MakeServer(order.hosts));
+  for (const std::string& robot : order.robots) {
+    HOMING_RETURN_IF_ERROR(folder.MakeClient("robots/" + robot));
+  }
+  for (const std::string& name : order.operators) {
+    HOMING_RETURN_IF_ERROR(folder.MakeClient("operators/" + name));
+  }
+  return folder.written();
+}
+
+}  // namespace homing::server

@@ -1,0 +1,33 @@
+// What `homing-server certs` keeps in its folder. Source: own design.
+#ifndef SERVER_ACCESS_CERTIFICATE_FOLDER_H_
+#define SERVER_ACCESS_CERTIFICATE_FOLDER_H_
+
+#include <string>
+#include <vector>
+
+#include "absl/status/statusor.h"
+
+namespace homing::server {
+
+struct CertificateOrder {
+  // Made if it is not there. An authority that is in it already is used again.
+  std::string folder;
+  // Ids; each gets a certificate with URI:homing:robots/ID or URI:homing:operators/ID.
+  std::vector<std::string> robots;
+  std::vector<std::string> operators;
+  // Names or addresses of the server besides localhost, 127.0.0.1 and ::1.
+  std::vector<std::string> hosts;
+  // Identities ("robots/r1") whose certificate in the folder is good no more.
+  std::vector<std::string> revoked;
+  // Of all that is made. [1, 36500].
+  int days = 365;
+};
+
+// ca.pem, ca.key; server.pem, server.key (made anew when hosts are given); robots/ID.pem, .key and
+// operators/ID.pem, .key; crl/homing.pem, made anew each time. Keys have mode 0600. Returns the
+// paths written. INVALID_ARGUMENT naming the field.
+absl::StatusOr<std::vector<std::string>> MakeCertificates(const CertificateOrder& order);
+
+}  // namespace homing::server
+
+#endif  // SERVER_ACCESS_CERTIFICATE_FOLDER_H_

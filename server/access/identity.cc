@@ -1,0 +1,66 @@
+#include "server/access/identity.h"
+
+#include "absl/strings/match.h"
+#include "absl/strings/str_cat.h"
+#include "absl/strings/strip.h"
+#include "homing/status_macros.h"
+#include "server/session/error_reason.h"
+#include "server/session/resource_name.h"
+
+namespace homing::server {
+namespace {
+
+constexpr char kScheme[] = "homing:";
+constexpr char kRobots[] = "robots/";
+constexpr char kOperators[] = "operators/";
+
+absl::Status BadNames(const char* what) {
+  return WithReason(
+      absl::UnauthenticatedError(absl::StrCat(
+          "the certificate ", what, "; one name must be URI:homing:robots/ID or operators/ID")),
+      {"BAD_CERTIFICATE", {}});
+}
+
+}  // namespace
+
+absl::Status CheckIdentity(const std::string& identity, const std::string& field) {
+  for (const char* kind : {kRobots, kOperators}) {
+    if (absl::StartsWith(identity, kind)) {
+      return CheckId(identity.substr(std::string(kind).size()), field);
+    }
+  }
+  return absl::InvalidArgumentError(absl::StrCat(field, " is \"", identity.substr(0, 200),
+                                                 "\"; it must be robots/ID or operators/ID"));
+}
+
+absl::StatusOr<std::string> IdentityOfUris(const std::vector<std::string>& uris) {
+  std::string identity;
+  for (const std::string& uri : uris) {
+    if (!absl::StartsWith(uri, kScheme)) {
+      continue;
+    }
+    if (!identity.empty()) {
+      return BadNames("names more than one identity");
+    }
+    identity = std::string(absl::StripPrefix(uri, kScheme));
+    if (!CheckIdentity(identity, "certificate").ok()) {
+      return BadNames("names an identity of another form");
+    }
+  }
+  if (identity.empty()) {
+    return BadNames("names no identity");
+  }
+  return identity;
+}
+
+std::string UriOf(const std::string& identity) { return kScheme + identity; }
+
+std::string RobotOf(const std::string& identity) {
+  return absl::StartsWith(identity, kRobots) ? identity.substr(std::string(kRobots).size()) : "";
+}
+
+Role DefaultRole(const std::string& identity) {
+  return absl::StartsWith(identity, kOperators) ? Role::kOperator : Role::kRobot;
+}
+
+}  // namespace homing::server

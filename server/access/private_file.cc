@@ -1,0 +1,52 @@
+#include "server/access/private_file.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+
+#include "absl/strings/str_cat.h"
+
+namespace homing::server {
+namespace {
+
+absl::Status WriteTo(const std::string& path, const std::string& text, int flags) {
+  const int file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC | flags, S_IRUSR | S_IWUSR);
+  std::size_t written = 0;
+  while (file >= 0 && written < text.size()) {
+    const ssize_t count = ::write(file, text.data() + written, text.size() - written);
+    if (count < 0 && errno != EINTR) {
+      break;
+    }
+    written += count > 0 ? static_cast<std::size_t>(count) : 0;
+  }
+  const bool whole = file >= 0 && written == text.size();
+  const int error = errno;
+  if (file < 0 || (::close(file) != 0 && whole) || !whole) {
+    return absl::InvalidArgumentError(
+        absl::StrCat("\"", path, "\" cannot be written: ", std::strerror(error)));
+  }
+  return absl::OkStatus();
+}
+
+}  // namespace
+
+absl::Status WritePrivateFile(const std::string& path, const std::string& text) {
+  // One that others may read is replaced, not filled.
+  const std::string fresh = path + ".new";
+  ::unlink(fresh.c_str());
+  absl::Status status = WriteTo(fresh, text, O_EXCL);
+  if (status.ok() && ::rename(fresh.c_str(), path.c_str()) != 0) {
+    status = absl::InvalidArgumentError(
+        absl::StrCat("\"", path, "\" cannot be written: ", std::strerror(errno)));
+  }
+  return status;
+}
+
+absl::Status AppendPrivateFile(const std::string& path, const std::string& text) {
+  return WriteTo(path, text, O_APPEND);
+}
+
+}  // namespace homing::server

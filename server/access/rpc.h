@@ -1,0 +1,80 @@
+// The methods of the API, for what concerns them all: rights and metrics. Source: own design.
+#ifndef SERVER_ACCESS_RPC_H_
+#define SERVER_ACCESS_RPC_H_
+
+#include <array>
+#include <string_view>
+
+namespace homing::server {
+
+enum class Rpc {
+  kCreateJourney,
+  kGetJourney,
+  kListJourneys,
+  kDeleteJourney,
+  kFinishJourney,
+  kRecordJourney,
+  kListLandmarks,
+  kAnalyzeAliasing,
+  kExportJourney,
+  kImportJourney,
+  kMatchLandmarks,
+  kLocalize,
+  kTrainDeviationModel,
+  kGetDeviationModel,
+  kListDeviationModels,
+};
+
+// What a method does, as far as rights go.
+enum class Right {
+  // Creates, records, finishes, imports a journey.
+  kWrite,
+  kDelete,
+  // Sees that a journey is there, and its settings and counts.
+  kSee,
+  // Takes the map itself: landmarks, aliasing, export.
+  kTakeMap,
+  // Recognises places on it.
+  kLocalize,
+  // Makes a deviation model, which all robots share.
+  kTrain,
+  kSeeModels,
+};
+
+struct RpcTraits {
+  Rpc rpc;
+  // "homing.v1.JourneyService/CreateJourney".
+  std::string_view method;
+  Right right;
+  // The field of the request that names the resource; empty: none does.
+  std::string_view field;
+};
+
+inline constexpr std::array<RpcTraits, 15> kRpcs = {{
+    {Rpc::kCreateJourney, "homing.v1.JourneyService/CreateJourney", Right::kWrite, "parent"},
+    {Rpc::kGetJourney, "homing.v1.JourneyService/GetJourney", Right::kSee, "name"},
+    {Rpc::kListJourneys, "homing.v1.JourneyService/ListJourneys", Right::kSee, "parent"},
+    {Rpc::kDeleteJourney, "homing.v1.JourneyService/DeleteJourney", Right::kDelete, "name"},
+    {Rpc::kFinishJourney, "homing.v1.JourneyService/FinishJourney", Right::kWrite, "name"},
+    {Rpc::kRecordJourney, "homing.v1.JourneyService/RecordJourney", Right::kWrite,
+     "config.journey"},
+    {Rpc::kListLandmarks, "homing.v1.JourneyService/ListLandmarks", Right::kTakeMap, "parent"},
+    {Rpc::kAnalyzeAliasing, "homing.v1.JourneyService/AnalyzeAliasing", Right::kTakeMap, "name"},
+    {Rpc::kExportJourney, "homing.v1.JourneyService/ExportJourney", Right::kTakeMap, "name"},
+    {Rpc::kImportJourney, "homing.v1.JourneyService/ImportJourney", Right::kWrite, "name"},
+    {Rpc::kMatchLandmarks, "homing.v1.HomingService/MatchLandmarks", Right::kLocalize, "journey"},
+    {Rpc::kLocalize, "homing.v1.HomingService/Localize", Right::kLocalize, "config.journey"},
+    {Rpc::kTrainDeviationModel, "homing.v1.DeviationModelService/TrainDeviationModel",
+     Right::kTrain, ""},
+    {Rpc::kGetDeviationModel, "homing.v1.DeviationModelService/GetDeviationModel",
+     Right::kSeeModels, ""},
+    {Rpc::kListDeviationModels, "homing.v1.DeviationModelService/ListDeviationModels",
+     Right::kSeeModels, ""},
+}};
+
+// In the order of the enumeration.
+inline const RpcTraits& TraitsOf(Rpc rpc) { return kRpcs[static_cast<std::size_t>(rpc)]; }
+
+}  // namespace homing::server
+
+#endif  // SERVER_ACCESS_RPC_H_

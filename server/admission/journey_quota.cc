@@ -1,0 +1,142 @@
+#include "server/admission/journey_quota.h"
+
+#include <algorithm>
+#include <functional>
+
+#include "absl/strings/str_cat.h"
+#include "homing/status_macros.h"
+#include "server/session/error_reason.h"
+
+namespace homing::server {
+namespace {
+
+constexpr std::int64_t kFingerprintBytes = 16;
+constexpr std::int64_t kStepBytes = 216;
+constexpr std::int64_t kSecondNs = 1'000'000'000;
+// Room comes when somebody deletes: no use in asking often.
+constexpr char kRetryMs[] = "10000";
+constexpr int kPage = 1000;
+
+// All journeys of `robot` (kWildcard: of all), page by page.
+absl::Status ForEach(JourneyCatalog* catalog, const std::string& robot,
+                     const std::function<void(const storage::JourneyRecord&)>& visit) {
+  std::string after;
+  while (true) {
+    HOMING_ASSIGN_OR_RETURN(const auto page, catalog->List(robot, after, kPage));
+    for (const storage::JourneyRecord& record : page) {
+      visit(record);
+    }
+    if (page.size() < std::size_t{kPage}) {
+      return absl::OkStatus();
+    }
+    after = page.back().name;
+  }
+}
+
+bool IsFinished(const storage::JourneyRecord& record) {
+  return record.state == storage::JourneyState::kFinished;
+}
+
+absl::Status Full(const std::string& robot, const char* reason, const std::string& what) {
+  return WithReason(absl::ResourceExhaustedError(absl::StrCat("robots/", robot, " has ", what,
+                                                              "; delete some of its journeys")),
+                    {reason, {{kRetryAfterMs, kRetryMs}}});
+}
+
+}  // namespace
+
+std::int64_t QuotaBytes(const storage::JourneyRecord& record) {
+  return record.fingerprint_count * kFingerprintBytes + record.step_count * kStepBytes;
+}
+
+absl::StatusOr<JourneyQuota::Usage> JourneyQuota::UsageOf(const std::string& robot) {
+  Usage usage;
+  HOMING_RETURN_IF_ERROR(ForEach(catalog_, robot, [&](const storage::JourneyRecord& record) {
+    ++usage.journeys;
+    usage.bytes += QuotaBytes(record);
+    if (IsFinished(record)) {
+      usage.finished.push_back(record);
+    }
+  }));
+  std::stable_sort(usage.finished.begin(), usage.finished.end(), [](const auto& a, const auto& b) {
+    return a.create_time_ns < b.create_time_ns;
+  });
+  return usage;
+}
+
+absl::Status JourneyQuota::FindExcess(const std::string& robot, const Usage& usage,
+                                      std::int64_t more_journeys) const {
+  const std::int64_t most = limits_.max_robot_journeys;
+  if (most > 0 && more_journeys > 0 && usage.journeys + more_journeys > most) {
+    return Full(robot, "ROBOT_JOURNEYS",
+                absl::StrCat(usage.journeys, " journeys and max-robot-journeys is ", most));
+  }
+  if (limits_.max_robot_bytes > 0 && usage.bytes >= limits_.max_robot_bytes) {
+    return Full(
+        robot, "ROBOT_BYTES",
+        absl::StrCat(usage.bytes, " bytes and max-robot-bytes is ", limits_.max_robot_bytes));
+  }
+  return absl::OkStatus();
+}
+
+absl::Status JourneyQuota::Delete(const std::string& name) {
+  const absl::Status status = catalog_->Delete(name);
+  if (status.ok()) {
+    ++deleted_;
+  }
+  return absl::IsNotFound(status) ? absl::OkStatus() : status;
+}
+
+absl::Status JourneyQuota::Check(const std::string& robot, std::int64_t more_journeys) {
+  HOMING_ASSIGN_OR_RETURN(Usage usage, UsageOf(robot));
+  absl::Status excess = FindExcess(robot, usage, more_journeys);
+  if (!limits_.delete_oldest) {
+    return excess;
+  }
+  for (const storage::JourneyRecord& oldest : usage.finished) {
+    if (excess.ok()) {
+      break;
+    }
+    HOMING_RETURN_IF_ERROR(Delete(oldest.name));
+    --usage.journeys;
+    usage.bytes -= QuotaBytes(oldest);
+    excess = FindExcess(robot, usage, more_journeys);
+  }
+  return excess;
+}
+
+absl::Status JourneyQuota::CheckNew(const std::string& name) {
+  const bool is_limited = limits_.max_robot_journeys > 0 || limits_.max_robot_bytes > 0;
+  if (!is_limited || catalog_->Get(name).ok()) {
+    return absl::OkStatus();
+  }
+  HOMING_ASSIGN_OR_RETURN(const JourneyName parsed, ParseJourneyName(name, "journey"));
+  return Check(parsed.robot, 1);
+}
+
+absl::Status JourneyQuota::CheckGrowth(const std::string& name) {
+  if (limits_.max_robot_bytes == 0) {
+    return absl::OkStatus();
+  }
+  HOMING_ASSIGN_OR_RETURN(const JourneyName parsed, ParseJourneyName(name, "journey"));
+  return Check(parsed.robot, 0);
+}
+
+absl::StatusOr<std::int64_t> JourneyQuota::DeleteExpired(std::int64_t now_ns) {
+  if (limits_.delete_after_s == 0) {
+    return 0;
+  }
+  const std::int64_t before_ns = now_ns - limits_.delete_after_s * kSecondNs;
+  std::vector<std::string> expired;
+  HOMING_RETURN_IF_ERROR(ForEach(catalog_, kWildcard, [&](const storage::JourneyRecord& record) {
+    if (IsFinished(record) && record.create_time_ns < before_ns) {
+      expired.push_back(record.name);
+    }
+  }));
+  for (const std::string& name : expired) {
+    HOMING_RETURN_IF_ERROR(Delete(name));
+  }
+  return static_cast<std::int64_t>(expired.size());
+}
+
+}  // namespace homing::server

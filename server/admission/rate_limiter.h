@@ -1,0 +1,39 @@
+// A token bucket for each robot. Source: own design.
+#ifndef SERVER_ADMISSION_RATE_LIMITER_H_
+#define SERVER_ADMISSION_RATE_LIMITER_H_
+
+#include <map>
+#include <mutex>
+#include <string>
+
+#include "absl/status/status.h"
+#include "server/session/writer_lease.h"
+
+namespace homing::server {
+
+// Thread-safe. Buckets that are full again are forgotten.
+class RateLimiter {
+ public:
+  // `per_second` tokens come a second, up to twice as many; 0: no limit.
+  explicit RateLimiter(int per_second) : rate_(per_second) {}
+
+  // Takes one token. RESOURCE_EXHAUSTED saying when there is one again.
+  absl::Status Take(const std::string& key, TimePoint now);
+
+ private:
+  struct Bucket {
+    double tokens = 0;
+    TimePoint at{};
+  };
+  double TokensAt(const Bucket& bucket, TimePoint now) const;
+  void ForgetFull(TimePoint now);
+
+  const double rate_;
+  std::mutex mutex_;
+  std::map<std::string, Bucket> buckets_;
+  std::size_t next_sweep_ = 1024;
+};
+
+}  // namespace homing::server
+
+#endif  // SERVER_ADMISSION_RATE_LIMITER_H_

@@ -1,0 +1,66 @@
+#include "server/admission/stream_limiter.h"
+
+#include <utility>
+
+#include "absl/strings/str_cat.h"
+#include "server/session/error_reason.h"
+
+namespace homing::server {
+
+StreamLimiter::Place::Place(StreamLimiter* limiter, std::string robot)
+    : limiter_(limiter), robot_(std::move(robot)) {}
+
+StreamLimiter::Place::Place(Place&& other) noexcept
+    : limiter_(std::exchange(other.limiter_, nullptr)), robot_(std::move(other.robot_)) {}
+
+StreamLimiter::Place& StreamLimiter::Place::operator=(Place&& other) noexcept {
+  if (this != &other) {
+    Leave();
+    limiter_ = std::exchange(other.limiter_, nullptr);
+    robot_ = std::move(other.robot_);
+  }
+  return *this;
+}
+
+void StreamLimiter::Place::Leave() {
+  if (StreamLimiter* const limiter = std::exchange(limiter_, nullptr)) {
+    limiter->Leave(robot_);
+  }
+}
+
+absl::StatusOr<StreamLimiter::Place> StreamLimiter::Enter(const std::string& robot) {
+  const std::lock_guard lock(mutex_);
+  if (max_all_ > 0 && open_ >= max_all_) {
+    return WithReason(absl::ResourceExhaustedError(
+                          absl::StrCat(open_, " streams are open; max-streams is ", max_all_)),
+                      {"STREAMS", {}});
+  }
+  const int of_robot = robot.empty() ? 0 : of_robot_[robot];
+  if (max_robot_ > 0 && of_robot >= max_robot_) {
+    return WithReason(
+        absl::ResourceExhaustedError(absl::StrCat(
+            robot, " has ", of_robot, " open streams; max-robot-streams is ", max_robot_)),
+        {"ROBOT_STREAMS", {}});
+  }
+  ++open_;
+  if (!robot.empty()) {
+    ++of_robot_[robot];
+  }
+  return Place(this, robot);
+}
+
+void StreamLimiter::Leave(const std::string& robot) {
+  const std::lock_guard lock(mutex_);
+  --open_;
+  const auto found = of_robot_.find(robot);
+  if (found != of_robot_.end() && --found->second <= 0) {
+    of_robot_.erase(found);
+  }
+}
+
+int StreamLimiter::open() const {
+  const std::lock_guard lock(mutex_);
+  return open_;
+}
+
+}  // namespace homing::server

@@ -1,0 +1,52 @@
+// Counts open streams, in all and of each robot. Source: own design.
+#ifndef SERVER_ADMISSION_STREAM_LIMITER_H_
+#define SERVER_ADMISSION_STREAM_LIMITER_H_
+
+#include <map>
+#include <mutex>
+#include <string>
+
+#include "absl/status/status.h"
+#include "absl/status/statusor.h"
+#include "server/admission/limits.h"
+
+namespace homing::server {
+
+// Thread-safe.
+class StreamLimiter {
+ public:
+  // A stream's place; gives it back at its end.
+  class Place {
+   public:
+    Place() = default;
+    Place(StreamLimiter* limiter, std::string robot);
+    Place(Place&& other) noexcept;
+    Place& operator=(Place&& other) noexcept;
+    ~Place() { Leave(); }
+    void Leave();
+
+   private:
+    StreamLimiter* limiter_ = nullptr;
+    std::string robot_;
+  };
+
+  explicit StreamLimiter(const Limits& limits)
+      : max_all_(limits.max_streams), max_robot_(limits.max_robot_streams) {}
+
+  // `robot` empty: counts among all only. RESOURCE_EXHAUSTED naming the limit.
+  absl::StatusOr<Place> Enter(const std::string& robot);
+  int open() const;
+
+ private:
+  void Leave(const std::string& robot);
+
+  const int max_all_;
+  const int max_robot_;
+  mutable std::mutex mutex_;
+  int open_ = 0;
+  std::map<std::string, int> of_robot_;
+};
+
+}  // namespace homing::server
+
+#endif  // SERVER_ADMISSION_STREAM_LIMITER_H_

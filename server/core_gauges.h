@@ -1,0 +1,15 @@
+// What is read off the running server at each scrape. Source: own design.
+#ifndef SERVER_CORE_GAUGES_H_
+#define SERVER_CORE_GAUGES_H_
+
+#include "server/server_options.h"
+#include "server/service_core.h"
+
+namespace homing::server {
+
+// Until core->metrics->RemoveGauges().
+void AddCoreGauges(const ServerOptions& options, ServiceCore* core);
+
+}  // namespace homing::server
+
+#endif  // SERVER_CORE_GAUGES_H_

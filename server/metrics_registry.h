@@ -1,0 +1,65 @@
+// The families behind Metrics. Source: own design.
+#ifndef SERVER_METRICS_REGISTRY_H_
+#define SERVER_METRICS_REGISTRY_H_
+
+#include <prometheus/collectable.h>
+#include <prometheus/counter.h>
+#include <prometheus/gauge.h>
+#include <prometheus/histogram.h>
+#include <prometheus/registry.h>
+
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "server/metrics.h"
+
+namespace homing::server {
+
+// Streams live for minutes, unary calls for milliseconds.
+inline const prometheus::Histogram::BucketBoundaries kCallSeconds = {
+    0.001, 0.003, 0.01, 0.03, 0.1, 0.3, 1, 3, 10, 60, 600, 3600};
+inline const prometheus::Histogram::BucketBoundaries kWorkSeconds = {
+    0.0003, 0.001, 0.003, 0.01, 0.03, 0.1, 0.3, 1, 3, 10};
+
+// Gauges whose value is asked for at each scrape. Thread-safe.
+class LiveGauges final : public prometheus::Collectable {
+ public:
+  void Add(const std::string& name, const std::string& help, std::function<double()> value);
+  // Returns when no value is being asked for.
+  void Clear();
+  std::vector<prometheus::MetricFamily> Collect() const override;
+
+ private:
+  struct Entry {
+    std::string name;
+    std::string help;
+    std::function<double()> read;
+  };
+  mutable std::mutex mutex_;
+  std::vector<Entry> entries_;
+};
+
+struct Metrics::State {
+  std::shared_ptr<prometheus::Registry> registry = std::make_shared<prometheus::Registry>();
+  std::shared_ptr<LiveGauges> gauges = std::make_shared<LiveGauges>();
+
+  prometheus::Family<prometheus::Counter>& started;
+  prometheus::Family<prometheus::Histogram>& duration;
+  prometheus::Family<prometheus::Counter>& errors;
+  prometheus::Family<prometheus::Counter>& observations;
+  prometheus::Family<prometheus::Counter>& outcomes;
+  prometheus::Family<prometheus::Counter>& commits;
+  prometheus::Family<prometheus::Gauge>& limits;
+  prometheus::Counter& steps;
+  prometheus::Histogram& localize_seconds;
+  prometheus::Histogram& commit_seconds;
+
+  State();
+};
+
+}  // namespace homing::server
+
+#endif  // SERVER_METRICS_REGISTRY_H_

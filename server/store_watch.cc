@@ -1,0 +1,51 @@
+#include "server/store_watch.h"
+
+#include <spdlog/spdlog.h>
+
+#include <string>
+#include <utility>
+
+namespace homing::server {
+namespace {
+
+// Between two looks at what the last write met, and between two writes that try.
+constexpr std::chrono::milliseconds kLook{200};
+constexpr std::chrono::milliseconds kTry{1000};
+
+}  // namespace
+
+StoreWatch::StoreWatch(storage::JourneyStore* store, OnChange on_change)
+    : store_(store), on_change_(std::move(on_change)) {
+  thread_ = std::thread([this] { Run(); });
+}
+
+StoreWatch::~StoreWatch() {
+  {
+    const std::lock_guard lock(mutex_);
+    stopping_ = true;
+  }
+  stopped_.notify_one();
+  thread_.join();
+}
+
+void StoreWatch::Run() {
+  bool well = true;
+  while (Sleep(well ? kLook : kTry)) {
+    const absl::Status status = well ? store_->WriteHealth() : store_->ProbeWrite();
+    if (status.ok() == well) continue;
+    well = status.ok();
+    if (well) {
+      spdlog::info("the store takes writes again");
+    } else {
+      spdlog::error("not serving, the store takes no writes: {}", std::string(status.message()));
+    }
+    on_change_(well);
+  }
+}
+
+bool StoreWatch::Sleep(std::chrono::milliseconds time) {
+  std::unique_lock lock(mutex_);
+  return !stopped_.wait_for(lock, time, [this] { return stopping_; });
+}
+
+}  // namespace homing::server

@@ -1,0 +1,41 @@
+// Watches whether the store takes writes, so that health can say so. Source: own design.
+#ifndef SERVER_STORE_WATCH_H_
+#define SERVER_STORE_WATCH_H_
+
+#include <condition_variable>
+#include <functional>
+#include <mutex>
+#include <thread>
+
+#include "storage/journey_store.h"
+
+namespace homing::server {
+
+// While writes fail, tries one a second: the server comes back by itself when there is room again,
+// though no robot calls a server that is not serving.
+class StoreWatch {
+ public:
+  // Called on a thread of the watch when it changes; true: writes work.
+  using OnChange = std::function<void(bool)>;
+
+  // `store` must outlive the watch. Writes are taken to work at first.
+  StoreWatch(storage::JourneyStore* store, OnChange on_change);
+  // No call comes after it.
+  ~StoreWatch();
+
+ private:
+  void Run();
+  // False: stopped meanwhile.
+  bool Sleep(std::chrono::milliseconds time);
+
+  storage::JourneyStore* const store_;
+  const OnChange on_change_;
+  std::mutex mutex_;
+  std::condition_variable stopped_;
+  bool stopping_ = false;
+  std::thread thread_;
+};
+
+}  // namespace homing::server
+
+#endif  // SERVER_STORE_WATCH_H_

@@ -1,0 +1,67 @@
+#include "server/tls_credentials.h"
+
+#include <grpcpp/security/tls_certificate_provider.h>
+#include <grpcpp/security/tls_certificate_verifier.h>
+#include <grpcpp/security/tls_credentials_options.h>
+
+#include <string>
+#include <utility>
+
+#include "homing/status_macros.h"
+#include "server/access/key_pair.h"
+#include "server/status_conversion.h"
+
+namespace homing::server {
+namespace {
+
+namespace tls = grpc::experimental;
+
+std::string StringOf(const grpc::string_ref& text) { return std::string(text.data(), text.size()); }
+
+// OpenSSL has verified chain and dates by then; what this adds is revocation.
+class ClientVerifier : public tls::ExternalCertificateVerifier {
+ public:
+  explicit ClientVerifier(std::shared_ptr<const AccessControl> access)
+      : access_(std::move(access)) {}
+
+  bool Verify(tls::TlsCustomVerificationCheckRequest* request,
+              std::function<void(grpc::Status)> /*callback*/, grpc::Status* result) override {
+    // OpenSSL's chain is without the client's own certificate.
+    const std::string pem =
+        StringOf(request->peer_cert()) + StringOf(request->peer_cert_full_chain());
+    // Without one the call must bring a token.
+    const absl::Status status = pem.empty() ? absl::OkStatus() : access_->CheckCertificate(pem);
+    *result = ToGrpcStatus(status);
+    return true;
+  }
+  void Cancel(tls::TlsCustomVerificationCheckRequest* /*request*/) override {}
+
+ private:
+  const std::shared_ptr<const AccessControl> access_;
+};
+
+}  // namespace
+
+absl::StatusOr<std::shared_ptr<grpc::ServerCredentials>> MakeServerCredentials(
+    const ServerOptions& options, std::shared_ptr<const AccessControl> access) {
+  if (options.tls_cert.empty()) {
+    return grpc::InsecureServerCredentials();
+  }
+  HOMING_RETURN_IF_ERROR(CheckKeyPair(options.tls_cert, options.tls_key));
+  const auto files = std::make_shared<tls::FileWatcherCertificateProvider>(
+      options.tls_key, options.tls_cert, options.tls_client_ca,
+      static_cast<unsigned int>(options.reload_s));
+  tls::TlsServerCredentialsOptions settings(files);
+  settings.watch_identity_key_cert_pairs();
+  if (!options.tls_client_ca.empty()) {
+    settings.watch_root_certs();
+    settings.set_cert_request_type(options.tokens.empty()
+                                       ? GRPC_SSL_REQUEST_AND_REQUIRE_CLIENT_CERTIFICATE_AND_VERIFY
+                                       : GRPC_SSL_REQUEST_CLIENT_CERTIFICATE_AND_VERIFY);
+    settings.set_certificate_verifier(
+        tls::ExternalCertificateVerifier::Create<ClientVerifier>(std::move(access)));
+  }
+  return tls::TlsServerCredentials(settings);
+}
+
+}  // namespace homing::server

@@ -1,0 +1,23 @@
+// TLS of the server: certificates that are read again while it runs. Source: own design.
+#ifndef SERVER_TLS_CREDENTIALS_H_
+#define SERVER_TLS_CREDENTIALS_H_
+
+#include <grpcpp/security/server_credentials.h>
+
+#include <memory>
+
+#include "absl/status/statusor.h"
+#include "server/access/access_control.h"
+#include "server/server_options.h"
+
+namespace homing::server {
+
+// Plain text without tls_cert. With a client CA, the handshake asks `access` too; a client may then
+// come without a certificate only if tokens are in use.
+// INVALID_ARGUMENT: a file is bad.
+absl::StatusOr<std::shared_ptr<grpc::ServerCredentials>> MakeServerCredentials(
+    const ServerOptions& options, std::shared_ptr<const AccessControl> access);
+
+}  // namespace homing::server
+
+#endif  // SERVER_TLS_CREDENTIALS_H_

@@ -1,0 +1,18 @@
+// A copy of a database as of one moment, taken while a server uses it. Source: SQLite's backup API.
+#ifndef STORAGE_BACKUP_H_
+#define STORAGE_BACKUP_H_
+
+#include <string>
+
+#include "absl/status/status.h"
+
+namespace homing::storage {
+
+// Makes the file `to`: whole, checked and on the disk, or not there at all. Writers go on
+// meanwhile. ALREADY_EXISTS; FAILED_PRECONDITION: no such file, another program's, or of a newer
+// version; DATA_LOSS: what was read is damaged; RESOURCE_EXHAUSTED: disk full.
+absl::Status BackUp(const std::string& path, const std::string& to);
+
+}  // namespace homing::storage
+
+#endif  // STORAGE_BACKUP_H_

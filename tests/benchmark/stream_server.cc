@@ -1,0 +1,104 @@
+#include "tests/benchmark/stream_server.h"
+
+#include <grpcpp/grpcpp.h>
+
+#include <algorithm>
+#include <thread>
+
+#include "absl/strings/str_cat.h"
+#include "homing/v1/journey_service.grpc.pb.h"
+#include "server/bidi_stream.h"
+#include "server/homing_server.h"
+#include "tests/support/temporary_folder.h"
+
+namespace homing::benchmarks {
+namespace {
+
+class Homing final : public StreamServer {
+ public:
+  bool Start() {
+    server::ServerOptions options;
+    options.listen = "127.0.0.1:0";
+    options.database = folder_.Database();
+    auto server = server::HomingServer::Start(options);
+    if (server.ok()) server_ = std::move(*server);
+    return server_ != nullptr;
+  }
+  std::string address() const override { return server_->address(); }
+
+ private:
+  const TemporaryFolder folder_;
+  std::unique_ptr<server::HomingServer> server_;
+};
+
+class EchoStream final
+    : public server::BidiStream<v1::RecordJourneyRequest, v1::RecordJourneyResponse> {
+ public:
+  explicit EchoStream(server::ServiceCore* core) : BidiStream(core) {}
+
+ protected:
+  absl::Status Handle(const v1::RecordJourneyRequest& request) override {
+    v1::RecordJourneyResponse response;
+    if (request.has_observation()) {
+      response.set_sequence(request.observation().sequence());
+      response.set_next_sequence(request.observation().sequence() + 1);
+    }
+    Answer(std::move(response));
+    return absl::OkStatus();
+  }
+};
+
+class EchoService final : public v1::JourneyService::CallbackService {
+ public:
+  explicit EchoService(server::ServiceCore* core) : core_(core) {}
+  grpc::ServerBidiReactor<v1::RecordJourneyRequest, v1::RecordJourneyResponse>* RecordJourney(
+      grpc::CallbackServerContext* /*context*/) override {
+    const auto stream = std::make_shared<EchoStream>(core_);
+    stream->Open();
+    return stream.get();
+  }
+
+ private:
+  server::ServiceCore* const core_;
+};
+
+server::CoreOptions EchoOptions() {
+  server::CoreOptions options;
+  options.workers = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  return options;
+}
+
+class Echo final : public StreamServer {
+ public:
+  Echo()
+      : core_(*storage::OpenJourneyStore({.url = "sqlite::memory:"}), EchoOptions()),
+        service_(&core_) {
+    grpc::ServerBuilder builder;
+    builder.AddListeningPort("127.0.0.1:0", grpc::InsecureServerCredentials(), &port_);
+    builder.RegisterService(&service_);
+    server_ = builder.BuildAndStart();
+  }
+  ~Echo() override {
+    server_->Shutdown();
+    server_->Wait();
+    core_.streams.AwaitNone();
+  }
+  std::string address() const override { return absl::StrCat("127.0.0.1:", port_); }
+
+ private:
+  server::ServiceCore core_;
+  EchoService service_;
+  int port_ = 0;
+  std::unique_ptr<grpc::Server> server_;
+};
+
+}  // namespace
+
+std::unique_ptr<StreamServer> StartHomingServer() {
+  auto server = std::make_unique<Homing>();
+  return server->Start() ? std::move(server) : nullptr;
+}
+
+std::unique_ptr<StreamServer> StartEchoServer() { return std::make_unique<Echo>(); }
+
+}  // namespace homing::benchmarks

@@ -1,0 +1,26 @@
+// Servers to stream to: the real one, and one that only echoes. Source: own design.
+#ifndef TESTS_BENCHMARK_STREAM_SERVER_H_
+#define TESTS_BENCHMARK_STREAM_SERVER_H_
+
+#include <memory>
+#include <string>
+
+namespace homing::benchmarks {
+
+// Listens on a loopback port of its own until it is destroyed.
+class StreamServer {
+ public:
+  virtual ~StreamServer() = default;
+  virtual std::string address() const = 0;
+};
+
+// A homing-server with a database of its own. Null: it did not start.
+std::unique_ptr<StreamServer> StartHomingServer();
+
+// Answers each RecordJourney observation by its number: the same reactor, threads, strands and
+// pool, and nothing computed or stored.
+std::unique_ptr<StreamServer> StartEchoServer();
+
+}  // namespace homing::benchmarks
+
+#endif  // TESTS_BENCHMARK_STREAM_SERVER_H_

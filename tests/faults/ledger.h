@@ -1,0 +1,52 @@
+// What the server has acknowledged, as its clients saw it.
+#ifndef TESTS_FAULTS_LEDGER_H_
+#define TESTS_FAULTS_LEDGER_H_
+
+#include <cstdint>
+#include <map>
+#include <mutex>
+#include <string>
+
+#include "absl/status/statusor.h"
+
+namespace homing::faults {
+
+struct Acknowledged {
+  // First number that is not durable.
+  std::int64_t next_sequence = 0;
+  bool finished = false;
+  // Whether frames were sent: the first makes no step.
+  bool frames = false;
+};
+
+struct LedgerCheck {
+  // Acknowledged observations that are not there; journeys that are not there, or not finished,
+  // count one each.
+  std::int64_t lost = 0;
+  // Steps beyond those that the observations make.
+  std::int64_t twice = 0;
+};
+
+// Thread-safe.
+class Ledger {
+ public:
+  void Created(const std::string& journey, bool frames);
+  void Advanced(const std::string& journey, std::int64_t next_sequence);
+  void Finished(const std::string& journey);
+  void Deleted(const std::string& journey);
+
+  std::map<std::string, Acknowledged> entries() const;
+
+ private:
+  mutable std::mutex mutex_;
+  std::map<std::string, Acknowledged> entries_;
+};
+
+// Compares a database (the files of a server that is dead) with what was acknowledged. Opens it as
+// a server would, which changes it.
+absl::StatusOr<LedgerCheck> CheckDatabase(const std::string& url,
+                                          const std::map<std::string, Acknowledged>& entries);
+
+}  // namespace homing::faults
+
+#endif  // TESTS_FAULTS_LEDGER_H_

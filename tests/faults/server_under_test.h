@@ -1,0 +1,42 @@
+// homing-server as a child process that may be killed and started again on the same port.
+#ifndef TESTS_FAULTS_SERVER_UNDER_TEST_H_
+#define TESTS_FAULTS_SERVER_UNDER_TEST_H_
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "tests/integration/program.h"
+
+namespace homing::faults {
+
+class ServerUnderTest {
+ public:
+  // Its database is `folder`/homing.db. `environment`: "NAME=VALUE", for example the faulty disk.
+  ServerUnderTest(std::string program, std::string folder)
+      : program_(std::move(program)), folder_(std::move(folder)) {}
+
+  // False, with what it said on stderr, when it does not come to listen.
+  bool Start(const std::vector<std::string>& environment = {},
+             const std::vector<std::string>& flags = {});
+  // kill -9. What it sent before is still on its way to the clients.
+  void Kill();
+  // SIGTERM; its exit code.
+  int Stop();
+
+  const std::string& address() const { return address_; }
+  const std::string& folder() const { return folder_; }
+  std::string Url() const { return "sqlite:" + folder_ + "/homing.db"; }
+  pid_t pid() const { return server_ ? server_->pid() : -1; }
+
+ private:
+  const std::string program_;
+  const std::string folder_;
+  // Port 0 at first, then the one that it picked.
+  std::string address_ = "127.0.0.1:0";
+  std::unique_ptr<Program> server_;
+};
+
+}  // namespace homing::faults
+
+#endif  // TESTS_FAULTS_SERVER_UNDER_TEST_H_

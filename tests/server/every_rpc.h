@@ -1,0 +1,55 @@
+// Each method of the API, called over a real channel by someone.
+#ifndef TESTS_SERVER_EVERY_RPC_H_
+#define TESTS_SERVER_EVERY_RPC_H_
+
+#include <grpcpp/grpcpp.h>
+
+#include <memory>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "homing/v1/deviation_model_service.grpc.pb.h"
+#include "homing/v1/homing_service.grpc.pb.h"
+#include "homing/v1/journey_service.grpc.pb.h"
+#include "server/access/rpc.h"
+
+namespace homing::server {
+
+class EveryRpc {
+ public:
+  // `token` empty: none is sent.
+  EveryRpc(const std::shared_ptr<grpc::Channel>& channel, std::string token);
+
+  // Calls it about `journey` ("robots/R/journeys/J", which exists and has no steps), so that a
+  // caller who may gets ExpectedCode.
+  grpc::Status Call(Rpc rpc, const std::string& journey);
+  // What one who may gets: an answer, or an error that only comes after the question of rights.
+  static grpc::StatusCode ExpectedCode(Rpc rpc);
+
+  // Names of what ListJourneys of `parent` gives.
+  std::vector<std::string> List(const std::string& parent);
+  grpc::Status Create(const std::string& journey, const std::vector<std::string>& readers);
+  // A stream that names `journey` (or a pattern), sends nothing more and reads to the end.
+  grpc::Status Localize(const std::string& journey);
+  grpc::Status Record(const std::string& journey);
+  grpc::Status Match(const std::string& journey);
+  // Journeys that both queries find in `pattern` for what is seen, each once.
+  std::set<std::string> Recognise(const std::string& pattern, const v1::Observation& seen);
+
+ private:
+  grpc::Status CallJourneys(Rpc rpc, const std::string& journey);
+  grpc::Status CallModels(Rpc rpc);
+  grpc::Status Export(const std::string& journey);
+  grpc::Status Import(const std::string& journey);
+  std::unique_ptr<grpc::ClientContext> Context() const;
+
+  const std::string token_;
+  std::unique_ptr<v1::JourneyService::Stub> journeys_;
+  std::unique_ptr<v1::HomingService::Stub> homing_;
+  std::unique_ptr<v1::DeviationModelService::Stub> models_;
+};
+
+}  // namespace homing::server
+
+#endif  // TESTS_SERVER_EVERY_RPC_H_
