@@ -19,7 +19,7 @@ constexpr int kIterations = 10;
 constexpr double kNoisePx = 0.35;
 constexpr double kNoiseShare = 0.15;
 
-using Rows = Eigen::Matrix<double, Eigen::Dynamic, 3>;
+using Rows = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
 
 // Rows of design * rotation = flow, x components first, then y; all in focal lengths.
 struct System {
@@ -59,7 +59,7 @@ std::vector<double> Residuals(const System& system, const Eigen::Vector3d& rotat
   const Eigen::Index n = miss.size() / 2;
   std::vector<double> result(static_cast<std::size_t>(n));
   for (Eigen::Index i = 0; i < n; ++i) {
-    result[static_cast<std::size_t>(i)] = std::hypot(miss[i], miss[n + i]);
+    result[static_cast<std::size_t>(i)] = std::sqrt(miss[i] * miss[i] + miss[n + i] * miss[n + i]);
   }
   return result;
 }
@@ -77,6 +77,34 @@ Eigen::VectorXd Weights(const std::vector<double>& residuals) {
   return weights;
 }
 
+// Weighted least squares. The sums are written out: products of so narrow matrices cost five times
+// as much.
+Eigen::Vector3d SolveWeighted(const System& system, const Eigen::VectorXd& weights) {
+  double aa = 0, ab = 0, ac = 0, bb = 0, bc = 0, cc = 0, af = 0, bf = 0, cf = 0;
+  for (Eigen::Index row = 0; row < weights.size(); ++row) {
+    const double a = system.design(row, 0);
+    const double b = system.design(row, 1);
+    const double c = system.design(row, 2);
+    const double weighted_a = weights[row] * a;
+    const double weighted_b = weights[row] * b;
+    const double weighted_c = weights[row] * c;
+    aa += weighted_a * a;
+    ab += weighted_a * b;
+    ac += weighted_a * c;
+    bb += weighted_b * b;
+    bc += weighted_b * c;
+    cc += weighted_c * c;
+    af += weighted_a * system.flow[row];
+    bf += weighted_b * system.flow[row];
+    cf += weighted_c * system.flow[row];
+  }
+  Eigen::Matrix3d normal;
+  normal << aa, ab, ac, ab, bb, bc, ac, bc, cc;
+  // A trace of damping keeps the few-vector case solvable.
+  normal += 1e-9 * Eigen::Matrix3d::Identity();
+  return normal.ldlt().solve(Eigen::Vector3d(af, bf, cf));
+}
+
 Eigen::Vector3d SolveRotation(const System& system) {
   const Eigen::Index n = system.flow.size() / 2;
   std::vector<double> u(system.flow.data(), system.flow.data() + n);
@@ -84,11 +112,7 @@ Eigen::Vector3d SolveRotation(const System& system) {
   Eigen::Vector3d rotation(Median(std::move(u)), Median(std::move(v)), 0);
   for (int i = 0; i < kIterations; ++i) {
     const Eigen::VectorXd weights = Weights(Residuals(system, rotation));
-    const Rows weighted = weights.asDiagonal() * system.design;
-    // A trace of damping keeps the few-vector case solvable.
-    const Eigen::Matrix3d normal =
-        weighted.transpose() * system.design + 1e-9 * Eigen::Matrix3d::Identity();
-    rotation = normal.ldlt().solve(weighted.transpose() * system.flow);
+    rotation = SolveWeighted(system, weights);
   }
   return rotation;
 }

@@ -46,7 +46,7 @@ class LandmarkIndex {
   // Goes over `buckets` buckets and takes out what was removed: call it again while it says true.
   bool Sweep(std::uint32_t buckets);
 
-  // As FindMatches over all journeys that are covered. Match::journey is the number here.
+  // As Matcher::Find over all journeys that are covered. Match::journey is the number here.
   std::vector<Match> FindLandmarks(const SeenSides& seen, const MatchOptions& options,
                                    const Covers& covers, SearchCost* cost = nullptr) const;
   // The same, with every fingerprint for itself instead of the best one of each landmark.

@@ -66,7 +66,7 @@ absl::StatusOr<Localization> Localizer::Localize(const Observation& observation,
   // III, Fig. 4, equations (11), (12): landmarks, by the side of the route that they are on.
   const SeenSides seen = FindRouteLandmarks(flow, result.motion);
   // III, equations (13) to (15), over all stored landmarks.
-  result.matches = FindMatches(journeys, seen, options_.match);
+  result.matches = matcher_.Find(journeys, seen, options_.match);
   // V, future work: where the sequence of what was seen places the robot.
   result.position =
       filter_.Update(journeys, result.motion, seen, MakeRouteProfiles(flow, result.motion));
@@ -116,14 +116,14 @@ SeenProfiles Localizer::MakeRouteProfiles(const ObservedFlow& flow, Motion motio
 }
 
 void Localizer::TellLandmark(std::span<const JourneyRef> journeys, const SeenSides& seen,
-                             Localization& result) const {
+                             Localization& result) {
   const Position& position = result.position;
   if (!position.step) {
     return;
   }
-  const auto best =
-      BestMatchWithin(journeys[static_cast<std::size_t>(position.journey)], position.interval_first,
-                      position.interval_last, seen, options_.match.threshold);
+  const auto best = matcher_.FindBestWithin(journeys[static_cast<std::size_t>(position.journey)],
+                                            position.interval_first, position.interval_last, seen,
+                                            options_.match.threshold);
   if (best) {
     result.landmark = best->landmark;
     result.similarity = best->similarity.p_t;

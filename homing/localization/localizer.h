@@ -60,10 +60,11 @@ class Localizer {
   SeenSides FindRouteLandmarks(const ObservedFlow& flow, Motion motion) const;
   SeenProfiles MakeRouteProfiles(const ObservedFlow& flow, Motion motion) const;
   void TellLandmark(std::span<const JourneyRef> journeys, const SeenSides& seen,
-                    Localization& result) const;
+                    Localization& result);
 
   LocalizerOptions options_;
   ObservationFlow flow_;
+  Matcher matcher_;
   PositionFilter filter_;
 };
 

@@ -1,7 +1,8 @@
 #include "homing/localization/matcher.h"
 
 #include <algorithm>
-#include <cmath>
+#include <cstddef>
+#include <functional>
 #include <iterator>
 #include <tuple>
 
@@ -11,8 +12,8 @@
 namespace homing {
 namespace {
 
-// Pairs whose bound is below this share of the least P_T asked for are not computed.
-constexpr double kBoundMargin = 1 - 1e-9;
+// Covers the rounding of a bound's product in float, twice over.
+constexpr float kRounding = 1e-6F;
 
 MeanAndCount Of(const SeenLandmark& seen) {
   return {double{seen.x}, double{seen.y}, static_cast<double>(seen.count)};
@@ -22,18 +23,6 @@ MeanAndCount Of(const Fingerprint& stored) {
   return {double{stored.x}, double{stored.y}, static_cast<double>(stored.count)};
 }
 
-// The distance beyond which 1 - F is below `probability`: no pair further apart reaches it.
-double FurthestDistance(const DeviationModel& model, double probability) {
-  double near = -700;
-  double far = 700;
-  // Bisection over ln delta; 1 - F falls with delta.
-  for (int i = 0; i < 60; ++i) {
-    const double middle = 0.5 * (near + far);
-    (Survival(model, std::exp(middle)) >= probability ? near : far) = middle;
-  }
-  return std::exp(far);
-}
-
 // Best P_T first; ties by step, side, landmark.
 bool IsBetter(const Match& a, const Match& b) {
   if (a.similarity.p_t != b.similarity.p_t) {
@@ -41,58 +30,6 @@ bool IsBetter(const Match& a, const Match& b) {
   }
   return std::tie(a.step, a.side, a.landmark) < std::tie(b.step, b.side, b.landmark);
 }
-
-// The best step of each landmark of one journey, found in one pass over its steps.
-class JourneyScan {
- public:
-  JourneyScan(const JourneyMap& map, double threshold)
-      : map_(map),
-        threshold_(threshold),
-        furthest_(FurthestDistance(map.settings().deviation_model, threshold * kBoundMargin)),
-        best_(map.landmarks().size()) {}
-
-  // The landmarks recognised from step `first` to `last`, in the order met.
-  std::vector<Match> Scan(const SeenSides& seen, std::int64_t first, std::int64_t last) {
-    for (std::int64_t step = first; step <= last; ++step) {
-      for (const Fingerprint& stored : map_.fingerprints(step)) {
-        for (const SeenLandmark& landmark : seen[static_cast<std::size_t>(map_.side_of(stored))]) {
-          Consider(step, stored, landmark);
-        }
-      }
-    }
-    std::vector<Match> matches;
-    std::copy_if(best_.begin(), best_.end(), std::back_inserter(matches),
-                 [](const Match& match) { return match.similarity.p_t > 0; });
-    return matches;
-  }
-
- private:
-  void Consider(std::int64_t step, const Fingerprint& stored, const SeenLandmark& landmark) {
-    Match& best = best_[static_cast<std::size_t>(stored.landmark)];
-    const double least = std::max(threshold_, best.similarity.p_t) * kBoundMargin;
-    const auto [low, high] = std::minmax(stored.count, landmark.count);
-    // Two bounds of P_T: the ratio of numbers (eq 15), and 1 - F (eq 14).
-    if (low < least * high || std::abs(double{stored.x} - double{landmark.x}) > furthest_ ||
-        std::abs(double{stored.y} - double{landmark.y}) > furthest_) {
-      return;
-    }
-    const Similarity similarity =
-        Compare(Of(landmark), Of(stored), map_.settings().deviation_model);
-    if (similarity.p_t >= threshold_ && similarity.p_t > best.similarity.p_t) {
-      best = {.journey = 0,
-              .landmark = stored.landmark,
-              .step = step,
-              .side = map_.side_of(stored),
-              .similarity = similarity};
-    }
-  }
-
-  const JourneyMap& map_;
-  double threshold_;
-  double furthest_;
-  // Indexed by landmark; P_T of 0: none.
-  std::vector<Match> best_;
-};
 
 }  // namespace
 
@@ -108,16 +45,92 @@ absl::Status Validate(const MatchOptions& options) {
   return CheckRange("threshold", options.threshold, 0.0, 1.0);
 }
 
-std::vector<Match> FindMatches(std::span<const JourneyRef> journeys, const SeenSides& seen,
-                               const MatchOptions& options) {
-  std::vector<Match> matches;
-  for (std::size_t i = 0; i < journeys.size(); ++i) {
-    const JourneyMap& map = *journeys[i].map;
-    for (Match& match : JourneyScan(map, options.threshold).Scan(seen, 0, map.step_count() - 1)) {
-      match.journey = static_cast<int>(i);
-      matches.push_back(match);
+const SurvivalBound& Matcher::BoundOf(const DeviationModel& model) {
+  const auto known =
+      std::ranges::find_if(bounds_, [&model](const auto& entry) { return entry.first == model; });
+  if (known != bounds_.end()) {
+    return *known->second;
+  }
+  return *bounds_.emplace_back(model, std::make_unique<const SurvivalBound>(model)).second;
+}
+
+void Matcher::Clear() {
+  candidates_.clear();
+  least_.clear();
+}
+
+// Bounds of each pair's P_T: the ratio of numbers (eq 15) times those of 1 - F (eq 14).
+void Matcher::Scan(int number, const JourneyMap& map, std::int64_t first, std::int64_t last,
+                   const SeenSides& seen, double threshold) {
+  const SurvivalBound& bound = BoundOf(map.settings().deviation_model);
+  const std::size_t before = least_.size();
+  least_.resize(before + map.landmarks().size(), 0);
+  for (std::int64_t step = first; step <= last; ++step) {
+    for (const Fingerprint& stored : map.fingerprints(step)) {
+      const std::size_t of = before + static_cast<std::size_t>(stored.landmark);
+      for (const SeenLandmark& landmark : seen[static_cast<std::size_t>(map.side_of(stored))]) {
+        const float dx = stored.x - landmark.x;
+        const float dy = stored.y - landmark.y;
+        const auto [low, high] = std::minmax(stored.count, landmark.count);
+        const float ratio = static_cast<float>(low) / static_cast<float>(high);
+        const float most = ratio * bound.At(dx * dx + dy * dy) * (1 + kRounding);
+        if (double{most} < threshold) continue;
+        candidates_.push_back({&stored, &landmark, step, number, of, most});
+        const float least = ratio * bound.LeastAt(dx * dx + dy * dy) * (1 - kRounding);
+        least_[of] = std::max(least_[of], least);
+      }
     }
   }
+}
+
+float Matcher::LeastOfBest(const MatchOptions& options) {
+  positive_.clear();
+  std::ranges::copy_if(least_, std::back_inserter(positive_),
+                       [](float least) { return least > 0; });
+  if (std::ssize(positive_) < options.max_matches) {
+    return 0;
+  }
+  const auto last = positive_.begin() + options.max_matches - 1;
+  std::nth_element(positive_.begin(), last, positive_.end(), std::greater());
+  return *last;
+}
+
+std::vector<Match> Matcher::Compute(std::span<const JourneyRef> journeys,
+                                    const MatchOptions& options) {
+  const float of_best = LeastOfBest(options);
+  match_of_.assign(least_.size(), -1);
+  std::vector<Match> matches;
+  for (const Candidate& candidate : candidates_) {
+    if (candidate.most < std::max(of_best, least_[candidate.landmark])) continue;
+    const JourneyMap& map = *journeys[static_cast<std::size_t>(candidate.journey)].map;
+    const Similarity similarity =
+        Compare(Of(*candidate.seen), Of(*candidate.stored), map.settings().deviation_model);
+    if (similarity.p_t <= 0 || similarity.p_t < options.threshold) continue;
+    std::int32_t& number = match_of_[candidate.landmark];
+    if (number < 0) {
+      number = static_cast<std::int32_t>(matches.size());
+      matches.emplace_back();
+    }
+    Match& best = matches[static_cast<std::size_t>(number)];
+    if (similarity.p_t > best.similarity.p_t) {
+      best = {.journey = candidate.journey,
+              .landmark = candidate.stored->landmark,
+              .step = candidate.step,
+              .side = map.side_of(*candidate.stored),
+              .similarity = similarity};
+    }
+  }
+  return matches;
+}
+
+std::vector<Match> Matcher::Find(std::span<const JourneyRef> journeys, const SeenSides& seen,
+                                 const MatchOptions& options) {
+  Clear();
+  for (std::size_t i = 0; i < journeys.size(); ++i) {
+    const JourneyMap& map = *journeys[i].map;
+    Scan(static_cast<int>(i), map, 0, map.step_count() - 1, seen, options.threshold);
+  }
+  std::vector<Match> matches = Compute(journeys, options);
   const auto name = [&journeys](const Match& match) -> const std::string& {
     return *journeys[static_cast<std::size_t>(match.journey)].name;
   };
@@ -127,16 +140,22 @@ std::vector<Match> FindMatches(std::span<const JourneyRef> journeys, const SeenS
     }
     return IsBetter(a, b);
   };
-  const auto kept = std::min(std::ptrdiff_t{options.max_matches}, std::ssize(matches));
-  std::partial_sort(matches.begin(), matches.begin() + kept, matches.end(), before);
-  matches.resize(static_cast<std::size_t>(kept));
+  if (std::ssize(matches) > options.max_matches) {
+    std::nth_element(matches.begin(), matches.begin() + options.max_matches, matches.end(), before);
+    matches.resize(static_cast<std::size_t>(options.max_matches));
+  }
+  std::ranges::sort(matches, before);
   return matches;
 }
 
-std::optional<Match> BestMatchWithin(const JourneyRef& journey, std::int64_t first,
-                                     std::int64_t last, const SeenSides& seen, double threshold) {
-  const std::vector<Match> matches = JourneyScan(*journey.map, threshold).Scan(seen, first, last);
-  const auto best = std::min_element(matches.begin(), matches.end(), IsBetter);
+std::optional<Match> Matcher::FindBestWithin(const JourneyRef& journey, std::int64_t first,
+                                             std::int64_t last, const SeenSides& seen,
+                                             double threshold) {
+  Clear();
+  Scan(0, *journey.map, first, last, seen, threshold);
+  const std::vector<Match> matches =
+      Compute({&journey, 1}, {.max_matches = 1, .threshold = threshold});
+  const auto best = std::ranges::min_element(matches, IsBetter);
   return best == matches.end() ? std::nullopt : std::optional(*best);
 }
 

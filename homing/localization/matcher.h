@@ -4,14 +4,18 @@
 #define HOMING_LOCALIZATION_MATCHER_H_
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "homing/journey/journey_map.h"
 #include "homing/landmark/landmark_finder.h"
+#include "homing/localization/survival_bound.h"
 #include "homing/similarity/similarity.h"
 
 namespace homing {
@@ -49,16 +53,52 @@ struct MatchOptions {
 
 absl::Status Validate(const MatchOptions& options);
 
-// Distinct landmarks, each with its best step over everything seen on its side; best P_T first,
-// ties by journey name, step, side, landmark. Each journey is scored with its own deviation model.
-// A P_T of 0 is no match.
-std::vector<Match> FindMatches(std::span<const JourneyRef> journeys, const SeenSides& seen,
-                               const MatchOptions& options);
+// Not thread-safe: keeps what it works with from query to query.
+class Matcher {
+ public:
+  // Distinct landmarks, each with its best step over everything seen on its side; best P_T first,
+  // ties by journey name, step, side, landmark. Each journey is scored with its own deviation
+  // model. A P_T of 0 is no match. REQUIRES: Validate(options).ok().
+  std::vector<Match> Find(std::span<const JourneyRef> journeys, const SeenSides& seen,
+                          const MatchOptions& options);
 
-// The best of one journey's steps from `first` to `last`, if any reaches the threshold. REQUIRES:
-// both are steps of the map.
-std::optional<Match> BestMatchWithin(const JourneyRef& journey, std::int64_t first,
-                                     std::int64_t last, const SeenSides& seen, double threshold);
+  // The best of one journey's steps from `first` to `last`, if any reaches the threshold.
+  // REQUIRES: both are steps of the map.
+  std::optional<Match> FindBestWithin(const JourneyRef& journey, std::int64_t first,
+                                      std::int64_t last, const SeenSides& seen, double threshold);
+
+ private:
+  // A pair that may reach the threshold.
+  struct Candidate {
+    const Fingerprint* stored = nullptr;
+    const SeenLandmark* seen = nullptr;
+    std::int64_t step = 0;
+    // Index into the journeys.
+    int journey = 0;
+    // Number of the landmark over all journeys.
+    std::size_t landmark = 0;
+    // Bound of P_T.
+    float most = 0;
+  };
+
+  const SurvivalBound& BoundOf(const DeviationModel& model);
+  void Clear();
+  void Scan(int number, const JourneyMap& map, std::int64_t first, std::int64_t last,
+            const SeenSides& seen, double threshold);
+  // The P_T that the `most`-th landmark has at least, or the threshold.
+  float LeastOfBest(const MatchOptions& options);
+  // The best of each landmark that can be among the best.
+  std::vector<Match> Compute(std::span<const JourneyRef> journeys, const MatchOptions& options);
+
+  std::vector<std::pair<DeviationModel, std::unique_ptr<const SurvivalBound>>> bounds_;
+  std::vector<Candidate> candidates_;
+  // By landmark over all journeys: what its P_T is at least.
+  std::vector<float> least_;
+  // Those above 0.
+  std::vector<float> positive_;
+  // By landmark: which match it is, or -1.
+  std::vector<std::int32_t> match_of_;
+};
 
 }  // namespace homing
 

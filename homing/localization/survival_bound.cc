@@ -7,16 +7,22 @@ namespace {
 
 // Covers the rounding of float, twice over.
 constexpr double kBoundRounding = 1e-6;
+// Smaller bounds, times a ratio of numbers, would not be exact in float.
+constexpr double kLeastBound = 1e-25;
 
 }  // namespace
 
-SurvivalBound::SurvivalBound(const DeviationModel& model) : table_{} {
+SurvivalBound::SurvivalBound(const DeviationModel& model) : table_{}, least_{} {
   table_[0] = 1;
+  // Beyond the last step any distance may lie: its least stays 0.
   for (std::int32_t i = 1; i < kEntries; ++i) {
-    const double least = std::bit_cast<float>((kFirst + i) << kShift);
-    const double survival = Survival(model, std::sqrt(least * (1 - kBoundRounding)));
+    const double squared = std::bit_cast<float>((kFirst + i) << kShift);
+    const double nearer = Survival(model, std::sqrt(squared * (1 - kBoundRounding)));
     table_[static_cast<std::size_t>(i)] =
-        static_cast<float>(std::min(1.0, survival * (1 + kBoundRounding)));
+        static_cast<float>(std::clamp(nearer * (1 + kBoundRounding), kLeastBound, 1.0));
+    const double further = Survival(model, std::sqrt(squared * (1 + kBoundRounding)));
+    least_[static_cast<std::size_t>(i - 1)] =
+        further < kLeastBound ? 0 : static_cast<float>(further * (1 - kBoundRounding));
   }
 }
 

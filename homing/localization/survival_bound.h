@@ -1,4 +1,4 @@
-// An upper bound of 1 - F(delta) that costs a table look-up instead of a logarithm and an erfc.
+// Bounds of 1 - F(delta) that cost a table look-up instead of a logarithm and an erfc.
 // Source: own design, after eqs 9, 14 (1 - F falls with delta).
 #ifndef HOMING_LOCALIZATION_SURVIVAL_BOUND_H_
 #define HOMING_LOCALIZATION_SURVIVAL_BOUND_H_
@@ -13,14 +13,18 @@
 
 namespace homing {
 
-// Steps are 1/16 of an octave of the squared distance wide: the bound is at most 1 - F of a
-// distance 3 % smaller. 3.2 kB.
+// Steps are 1/16 of an octave of the squared distance wide: the bounds are at most 1 - F of a
+// distance 3 % smaller, and at least that of one 3 % greater. 6.4 kB.
 class SurvivalBound {
  public:
   explicit SurvivalBound(const DeviationModel& model);
 
   // At least 1 - F of every distance whose square, computed in float, is `squared_px`.
   float At(float squared_px) const { return table_[static_cast<std::size_t>(IndexOf(squared_px))]; }
+  // At most 1 - F of each of them.
+  float LeastAt(float squared_px) const {
+    return least_[static_cast<std::size_t>(IndexOf(squared_px))];
+  }
   // Where At looks; for loops over many.
   static std::int32_t IndexOf(float squared_px) {
     // The bits of a float that is not negative grow with it.
@@ -38,6 +42,7 @@ class SurvivalBound {
   static constexpr std::int32_t kEntries = 50 << kMantissaBits;
 
   std::array<float, kEntries> table_;
+  std::array<float, kEntries> least_;
 };
 
 }  // namespace homing

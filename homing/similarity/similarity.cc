@@ -15,7 +15,9 @@ MeanAndCount Of(const Fingerprint& f) {
 Similarity Compare(const MeanAndCount& i, const MeanAndCount& j, const DeviationModel& model) {
   Similarity result;
   // Equation (13).
-  result.delta = std::hypot(i.x - j.x, i.y - j.y);
+  const double dx = i.x - j.x;
+  const double dy = i.y - j.y;
+  result.delta = std::sqrt(dx * dx + dy * dy);
   // Equation (14).
   result.p = Survival(model, result.delta);
   // Equation (15).

@@ -48,7 +48,7 @@ class FleetIndex {
   // Of all journeys, those whose camera and settings agree with the robot's, as SelectJourneys
   // chooses. UNAVAILABLE; NOT_FOUND: there is no journey; FAILED_PRECONDITION: none agrees.
   absl::StatusOr<LocalizerOptions> Select(const QueryRobot& robot);
-  // As homing::FindMatches over the journeys that Select chooses. Match::journey is of no use.
+  // As homing::Matcher::Find over the journeys that Select chooses. Match::journey is of no use.
   absl::StatusOr<std::vector<std::pair<std::string, Match>>> Find(const QueryRobot& robot,
                                                                   const SeenSides& seen,
                                                                   const MatchOptions& options);

@@ -148,7 +148,7 @@ absl::StatusOr<LandmarkQueryResult> MatchLandmarks(JourneyCatalog* catalog,
   for (const std::shared_ptr<LiveJourney>& journey : selection.journeys) {
     refs.push_back({&journey->name(), &journey->map()});
   }
-  for (const Match& match : FindMatches(refs, result.seen, query.match)) {
+  for (const Match& match : Matcher().Find(refs, result.seen, query.match)) {
     result.matches.push_back({*refs[static_cast<std::size_t>(match.journey)].name, match});
   }
   return result;

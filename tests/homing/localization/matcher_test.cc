@@ -109,6 +109,7 @@ TEST(MatcherTest, AgreesWithAScanOfEverything) {
   const std::string first_name = "robots/b/journeys/1";
   const std::string second_name = "robots/a/journeys/1";
   std::size_t found = 0;
+  Matcher matcher;
   for (std::uint64_t seed = 1; seed <= 60; ++seed) {
     SCOPED_TRACE(seed);
     std::mt19937_64 engine(seed);
@@ -119,7 +120,7 @@ TEST(MatcherTest, AgreesWithAScanOfEverything) {
     for (const double threshold : {0.0, 0.2, 0.6}) {
       for (const int most : {1, 10, 1000}) {
         const MatchOptions options{.max_matches = most, .threshold = threshold};
-        const auto matches = FindMatches(journeys, seen, options);
+        const auto matches = matcher.Find(journeys, seen, options);
         ExpectSame(matches, NaiveMatches(journeys, seen, options));
         found += matches.size();
       }
@@ -138,13 +139,14 @@ TEST(MatcherTest, BestWithinAnIntervalIsTheBestOfItsSteps) {
   seen[0][0].x = 20;
   seen[0][0].y = 15;
   seen[0][0].count = 25;
-  const auto all = FindMatches({&journey, 1}, seen, {.max_matches = 1, .threshold = 0});
+  Matcher matcher;
+  const auto all = matcher.Find({&journey, 1}, seen, {.max_matches = 1, .threshold = 0});
   ASSERT_EQ(all.size(), 1u);
-  const auto here = BestMatchWithin(journey, all[0].step, all[0].step, seen, 0);
+  const auto here = matcher.FindBestWithin(journey, all[0].step, all[0].step, seen, 0);
   ASSERT_TRUE(here);
   EXPECT_EQ(here->similarity.p_t, all[0].similarity.p_t);
-  EXPECT_FALSE(BestMatchWithin(journey, all[0].step, all[0].step, seen, 1).has_value());
-  EXPECT_FALSE(BestMatchWithin(journey, 0, 59, SeenSides{}, 0).has_value());
+  EXPECT_FALSE(matcher.FindBestWithin(journey, all[0].step, all[0].step, seen, 1).has_value());
+  EXPECT_FALSE(matcher.FindBestWithin(journey, 0, 59, SeenSides{}, 0).has_value());
 }
 
 TEST(MatcherTest, ReturningRobotsCamerasHaveChangedSides) {
