@@ -8,6 +8,7 @@
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 
+#include "homing/open_files.h"
 #include "server/access_commands.h"
 #include "server/health_check.h"
 #include "server/homing_server.h"
@@ -39,6 +40,7 @@ sigset_t BlockStopSignals() {
 
 int Serve(const homing::server::ServerOptions& options) {
   const sigset_t signals = BlockStopSignals();
+  homing::RaiseOpenFileLimit();
   const auto server = HomingServer::Start(options);
   if (!server.ok()) {
     return Tell(server.status());

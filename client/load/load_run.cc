@@ -1,7 +1,5 @@
 #include "client/load/load_run.h"
 
-#include <sys/resource.h>
-
 #include <algorithm>
 #include <memory>
 #include <optional>
@@ -13,6 +11,7 @@
 #include "client/load/load_scene.h"
 #include "client/observation_stream.h"
 #include "client/recording_client.h"
+#include "homing/open_files.h"
 #include "homing/range_check.h"
 #include "homing/status_macros.h"
 #include "homing/v1/homing_service.grpc.pb.h"
@@ -212,7 +211,7 @@ absl::StatusOr<LoadResult> RunLoad(const ConnectionOptions& connection, const Lo
                                    const std::function<void(const std::string&)>& log,
                                    const std::stop_token& stop) {
   HOMING_RETURN_IF_ERROR(Validate(options));
-  RaiseOpenFiles();
+  RaiseOpenFileLimit();
   HOMING_ASSIGN_OR_RETURN(const Connection first, Connection::Open(connection));
   HOMING_RETURN_IF_ERROR(first.WaitForServer());
   const bool shared = options.localize || options.prepare_only;
@@ -231,14 +230,6 @@ absl::StatusOr<LoadResult> RunLoad(const ConnectionOptions& connection, const Lo
   }
   HOMING_RETURN_IF_ERROR(CreateJourneys(first, options, stop));
   return Record(connection, options, scenes, stop);
-}
-
-void RaiseOpenFiles() {
-  rlimit files{};
-  if (getrlimit(RLIMIT_NOFILE, &files) == 0) {
-    files.rlim_cur = files.rlim_max;
-    setrlimit(RLIMIT_NOFILE, &files);
-  }
 }
 
 }  // namespace homing::client

@@ -50,9 +50,6 @@ absl::StatusOr<LoadResult> RunLoad(const ConnectionOptions& connection, const Lo
                                    const std::function<void(const std::string&)>& log,
                                    const std::stop_token& stop);
 
-// As many open files as the system allows: each robot takes one.
-void RaiseOpenFiles();
-
 }  // namespace homing::client
 
 #endif  // CLIENT_LOAD_LOAD_RUN_H_

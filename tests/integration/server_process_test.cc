@@ -1,6 +1,7 @@
 // homing-server as a process: how it starts, answers for its health, and stops.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include <csignal>
 #include <cstdlib>
@@ -54,6 +55,18 @@ TEST_F(ServerProcessTest, ItSaysWhereItListensIsHealthyAndStopsCleanly) {
     EXPECT_EQ(Run({HOMING_SERVER_PROGRAM, "healthcheck", "--server", address}), 1);
     EXPECT_FALSE(std::filesystem::exists(folder_.File("homing.db-wal")));
   }
+}
+
+TEST_F(ServerProcessTest, ItOpensAsManyConnectionsAsTheSystemAllows) {
+  std::vector<std::string> command = {"/bin/sh", "-c", "ulimit -S -n 64 && exec \"$0\" \"$@\""};
+  const std::vector<std::string> server_command = Command({});
+  command.insert(command.end(), server_command.begin(), server_command.end());
+  Program server(command);
+  AddressOf(&server);
+  rlimit files{};
+  ASSERT_EQ(prlimit(server.pid(), RLIMIT_NOFILE, nullptr, &files), 0);
+  EXPECT_EQ(files.rlim_cur, files.rlim_max);
+  EXPECT_GT(files.rlim_max, 64u);
 }
 
 TEST_F(ServerProcessTest, AServerOnATakenAddressSaysSoAndEnds) {
