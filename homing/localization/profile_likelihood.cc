@@ -9,7 +9,7 @@ namespace {
 
 // What a side says on a foreign route, logarithm: the best of many steps looks good.
 constexpr double kFirstForeignEvidence = 0.18;
-constexpr double kForeignEvidence = 0.33;
+constexpr double kForeignEvidence = 0.40;
 // Stored profiles that tell how far away those of other places are; at most twice as many.
 constexpr std::int64_t kSamples = 256;
 // A less probable offset is tried only now and then, once the place is known.
