@@ -105,7 +105,8 @@ TEST_F(LimitsTest, PixelsAndVectorsAreNeverWorthARetry) {
   options_.max_vectors = 3;
   Restart();
   Observation frame;
-  frame.views[0] = test::GrayFrame(test::WallAt(0, Side::kLeft));
+  const std::string wall = test::WallAt(0, Side::kLeft);
+  frame.views[0] = test::GrayFrame(wall);
   Recording frames(journeys_.get(), kJourney);
   frames.Send(frame);
   const grpc::Status pixels = frames.AwaitEnd();

@@ -80,6 +80,8 @@ inline std::string WallAt(int place, Side side, int width = kWidth, int height =
 }
 
 // A frame of one camera with its bytes, for an Observation's view.
+// A frame only views its bytes.
+Frame GrayFrame(std::string&& bytes, int width = kWidth, int height = kHeight) = delete;
 inline Frame GrayFrame(const std::string& bytes, int width = kWidth, int height = kHeight) {
   return Frame{FrameEncoding::kGray8, width, height, bytes};
 }
