@@ -13,7 +13,7 @@ namespace homing {
 namespace {
 
 // Covers the rounding of a bound's product in float, twice over.
-constexpr float kRounding = 1e-6F;
+constexpr float kProductRounding = 1e-6F;
 
 MeanAndCount Of(const SeenLandmark& seen) {
   return {double{seen.x}, double{seen.y}, static_cast<double>(seen.count)};
@@ -73,10 +73,10 @@ void Matcher::Scan(int number, const JourneyMap& map, std::int64_t first, std::i
         const float dy = stored.y - landmark.y;
         const auto [low, high] = std::minmax(stored.count, landmark.count);
         const float ratio = static_cast<float>(low) / static_cast<float>(high);
-        const float most = ratio * bound.At(dx * dx + dy * dy) * (1 + kRounding);
+        const float most = ratio * bound.At(dx * dx + dy * dy) * (1 + kProductRounding);
         if (double{most} < threshold) continue;
         candidates_.push_back({&stored, &landmark, step, number, of, most});
-        const float least = ratio * bound.LeastAt(dx * dx + dy * dy) * (1 - kRounding);
+        const float least = ratio * bound.LeastAt(dx * dx + dy * dy) * (1 - kProductRounding);
         least_[of] = std::max(least_[of], least);
       }
     }
