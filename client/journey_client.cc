@@ -2,6 +2,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_split.h"
+#include "client/chunk_file.h"
 #include "client/rpc_status.h"
 #include "client/unary_call.h"
 #include "homing/status_macros.h"
@@ -120,14 +121,7 @@ absl::Status JourneyClient::Export(const std::string& name, std::ostream& file) 
   v1::ExportJourneyRequest request;
   request.set_name(name);
   const auto reader = stub_->ExportJourney(&context, request);
-  v1::ExportJourneyResponse response;
-  while (reader->Read(&response)) {
-    file.write(response.chunk().data(), static_cast<std::streamsize>(response.chunk().size()));
-    if (!file) context.TryCancel();
-  }
-  absl::Status status = FromGrpc(reader->Finish());
-  if (!file) return absl::ResourceExhaustedError("cannot write the exported file");
-  return status;
+  return WriteChunks<v1::ExportJourneyResponse>(*reader, &context, file);
 }
 
 absl::StatusOr<v1::Journey> JourneyClient::Import(const std::string& name, std::istream& file) {

@@ -49,6 +49,7 @@ int main(int argc, char** argv) {
   homing::client::AddSimulateCommand(app, session);
   homing::client::AddDrawCommand(app, session);
   homing::client::AddBenchCommand(app, session);
+  homing::client::AddBackupCommand(app, session);
   homing::client::AddEvaluateCommand(app, session);
   try {
     app.parse(argc, argv);

@@ -1,5 +1,5 @@
 # One target a folder: homing_library(NAME [SEPARATE] SOURCES ... DEPS ...), homing_test(NAME SOURCES ... DEPS ...).
-# All presets but dev compile a folder's sources eight at a time (unity build), since most of the time goes into what
+# All presets compile a folder's sources eight at a time (unity build), since most of the time goes into what
 # they include. SEPARATE is for folders whose files use the same names in unnamed namespaces.
 include(CMakeParseArguments)
 

@@ -10,77 +10,21 @@
 #include "server/status_conversion.h"
 
 namespace homing::server {
-namespace {
 
-constexpr std::size_t kChunk = 256 << 10;
-
-// Both kinds of stream: a caller known no more, or one that does not move, is cut off.
-void CutOffIfStale(const IncomingCall& call, StreamWatch* watch) {
-  if (watch->IsIdle() || !call.CheckIdentity().ok()) {
-    watch->BreakOff();
-  }
-}
-
-}  // namespace
-
-void ExportStream::Tick() { CutOffIfStale(call_, &watch_); }
-
-void ExportStream::Open() {
-  self_ = shared_from_this();
-  absl::Status entered = call_.EnterStream();
-  if (!core_->streams.Add(self_)) {
-    entered = DrainingError();
-  }
-  if (!entered.ok()) {
-    Finish(call_.Finish(entered));
-    return;
-  }
-  const bool admitted = core_->pool.TryRun([self = self_] {
-    const absl::Status status = Guarded([&] { return self->Encode(); });
-    if (status.ok()) {
-      self->WriteNext();
-    } else {
-      self->Finish(self->call_.Finish(status));
-    }
-  });
-  if (!admitted) {
-    Finish(call_.Finish(BusyError()));
-  }
-}
-
-absl::Status ExportStream::Encode() {
-  HOMING_RETURN_IF_ERROR(call_.Authorize(name_));
+absl::Status ExportStream::Prepare(ServiceCore* core, IncomingCall* call) {
+  HOMING_RETURN_IF_ERROR(call->Authorize(name_));
   HOMING_ASSIGN_OR_RETURN(const JourneyName name, ParseJourneyName(name_, "name"));
-  HOMING_ASSIGN_OR_RETURN(auto journey, core_->catalog.Open(name.ToString()));
+  HOMING_ASSIGN_OR_RETURN(auto journey, core->catalog.Open(name.ToString()));
   const LiveJourneys one = {std::move(journey)};
   const MapsLock lock(one);
   HOMING_ASSIGN_OR_RETURN(file_, EncodeJourney(one.front()->record(), one.front()->map()));
   return absl::OkStatus();
 }
 
-void ExportStream::WriteNext() {
-  if (written_ >= file_.size()) {
-    Finish(call_.Finish(absl::OkStatus()));
-    return;
-  }
-  chunk_.set_chunk(file_.substr(written_, kChunk));
-  written_ += chunk_.chunk().size();
-  StartWrite(&chunk_);
-}
-
-void ExportStream::OnWriteDone(bool ok) {
-  watch_.Moved();
-  if (ok) {
-    WriteNext();
-  } else {
-    Finish(call_.Finish(absl::CancelledError("the client went away")));
-  }
-}
-
-void ExportStream::OnDone() {
-  watch_.Forget();
-  const std::shared_ptr<ExportStream> self = std::move(self_);
-  core_->streams.Remove(self);
+absl::StatusOr<std::string> ExportStream::NextChunk() {
+  std::string chunk = file_.substr(written_, kChunkBytes);
+  written_ += chunk.size();
+  return chunk;
 }
 
 void ImportStream::Tick() { CutOffIfStale(call_, &watch_); }

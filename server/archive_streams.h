@@ -9,45 +9,30 @@
 #include <string>
 
 #include "absl/status/status.h"
+#include "absl/status/statusor.h"
 #include "homing/v1/journey_service.pb.h"
+#include "server/chunk_stream.h"
 #include "server/incoming_call.h"
 #include "server/service_core.h"
 #include "server/stream_watch.h"
 
 namespace homing::server {
 
-// Holds itself until gRPC has done with it.
-class ExportStream final : public grpc::ServerWriteReactor<v1::ExportJourneyResponse>,
-                           public OpenStream,
-                           public std::enable_shared_from_this<ExportStream> {
+class ExportStream final : public ChunkStream<v1::ExportJourneyResponse> {
  public:
   ExportStream(ServiceCore* core, grpc::CallbackServerContext* context, const std::string& name)
-      : core_(core),
-        call_(core, *context, Rpc::kExportJourney),
-        watch_(core, context),
-        name_(name) {}
-
-  void Open();
-  // A file under way is let finish; the server's own deadline ends it.
-  void Drain() override {}
-  void Tick() override;
-  void OnWriteDone(bool ok) override;
-  void OnDone() override;
+      : ChunkStream(core, context, Rpc::kExportJourney), name_(name) {}
 
  private:
-  absl::Status Encode();
-  void WriteNext();
+  absl::Status Prepare(ServiceCore* core, IncomingCall* call) override;
+  absl::StatusOr<std::string> NextChunk() override;
 
-  ServiceCore* const core_;
-  IncomingCall call_;
-  StreamWatch watch_;
   const std::string name_;
-  std::shared_ptr<ExportStream> self_;
   std::string file_;
   std::size_t written_ = 0;
-  v1::ExportJourneyResponse chunk_;
 };
 
+// Holds itself until gRPC has done with it.
 class ImportStream final : public grpc::ServerReadReactor<v1::ImportJourneyRequest>,
                            public OpenStream,
                            public std::enable_shared_from_this<ImportStream> {

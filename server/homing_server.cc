@@ -21,6 +21,7 @@
 #include "server/housekeeping.h"
 #include "server/journey_service.h"
 #include "server/metrics_endpoint.h"
+#include "server/store_service.h"
 #include "server/store_watch.h"
 #include "server/tls_credentials.h"
 
@@ -83,7 +84,8 @@ struct HomingServer::State {
       : core(std::make_unique<ServiceCore>(std::move(store), std::move(access), options)),
         journeys(core.get()),
         homing(core.get()),
-        models(core.get()) {}
+        models(core.get()),
+        whole(core.get()) {}
 
   absl::Status Listen(const ServerOptions& options);
   absl::Status ServeMetrics(const ServerOptions& options);
@@ -93,6 +95,7 @@ struct HomingServer::State {
   JourneyServiceHandler journeys;
   HomingServiceHandler homing;
   DeviationModelServiceHandler models;
+  StoreServiceHandler whole;
   std::unique_ptr<grpc::Server> server;
   // Ends before the server whose health it sets.
   std::unique_ptr<StoreWatch> watch;
@@ -113,6 +116,7 @@ absl::Status HomingServer::State::Listen(const ServerOptions& options) {
   builder.RegisterService(&journeys);
   builder.RegisterService(&homing);
   builder.RegisterService(&models);
+  builder.RegisterService(&whole);
   server = builder.BuildAndStart();
   const bool is_socket_file = options.listen.rfind("unix:", 0) == 0;
   if (server == nullptr || (port <= 0 && !is_socket_file)) {

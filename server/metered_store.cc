@@ -58,6 +58,7 @@ class MeteredStore final : public storage::JourneyStore {
   absl::Status WriteHealth() override { return store_->WriteHealth(); }
   absl::Status ProbeWrite() override { return store_->ProbeWrite(); }
   bool read_only() const override { return store_->read_only(); }
+  absl::StatusOr<std::unique_ptr<std::istream>> BackUp() override { return store_->BackUp(); }
   absl::Status CreateModel(const StoredModel& model) override { return store_->CreateModel(model); }
   absl::StatusOr<StoredModel> GetModel(const std::string& name) override {
     return store_->GetModel(name);

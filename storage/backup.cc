@@ -5,8 +5,10 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <cstdint>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
 
 #include "absl/strings/str_cat.h"
 #include "homing/status_macros.h"
@@ -78,6 +80,28 @@ absl::Status BackUp(const std::string& path, const std::string& to) {
   RemovePartial(partial);
   HOMING_RETURN_IF_ERROR(status);
   return SyncFolder(to);
+}
+
+absl::StatusOr<std::unique_ptr<std::istream>> CopyForReading(const std::string& path,
+                                                             const std::string& by) {
+  std::error_code error;
+  fs::remove(by, error);
+  // Recording goes before: the copy must not fill the disk. The file, its log and a margin.
+  const std::uintmax_t room = fs::space(fs::absolute(path).parent_path(), error).available;
+  std::uintmax_t needed = fs::file_size(path, error);
+  const std::uintmax_t log = fs::file_size(path + "-wal", error);
+  needed += error ? 0 : log;
+  if (needed > room - room / 10) {
+    return absl::ResourceExhaustedError(absl::StrCat(
+        "store: a copy takes ", needed, " bytes beside the database; ", room, " are free"));
+  }
+  HOMING_RETURN_IF_ERROR(BackUp(path, by));
+  auto copy = std::make_unique<std::ifstream>(by, std::ios::binary);
+  fs::remove(by, error);
+  if (!*copy) {
+    return absl::UnavailableError(absl::StrCat("store: the copy '", by, "' cannot be read"));
+  }
+  return copy;
 }
 
 }  // namespace homing::storage

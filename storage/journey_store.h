@@ -3,6 +3,7 @@
 #define STORAGE_JOURNEY_STORE_H_
 
 #include <cstdint>
+#include <istream>
 #include <memory>
 #include <optional>
 #include <string>
@@ -97,6 +98,13 @@ class JourneyStore {
   // Writes a little that changes nothing, to find out. Returns WriteHealth.
   virtual absl::Status ProbeWrite() { return absl::OkStatus(); }
   virtual bool read_only() const { return false; }
+
+  // A copy of the whole as of one moment, checked; it takes room beside the file until it is let go
+  // of. FAILED_PRECONDITION (in memory, or read-only: the file itself may be copied), ABORTED
+  // (another copy is being made), RESOURCE_EXHAUSTED.
+  virtual absl::StatusOr<std::unique_ptr<std::istream>> BackUp() {
+    return absl::FailedPreconditionError("store: it cannot be copied");
+  }
 
   // ALREADY_EXISTS.
   virtual absl::Status CreateModel(const StoredModel& model) = 0;

@@ -68,7 +68,7 @@ absl::StatusOr<std::unique_ptr<JourneyStore>> OpenReadOnly(const std::string& pa
                           Connection::Open(path, kAccess, options.busy_timeout_ms));
   HOMING_RETURN_IF_ERROR(CheckSchema(*first));
   return std::make_unique<SqliteJourneyStore>(
-      std::move(lock), nullptr,
+      path, std::move(lock), nullptr,
       std::make_unique<QueryConnections>(path, kAccess, options.busy_timeout_ms,
                                          kMaxQueryConnections));
 }
@@ -93,7 +93,7 @@ absl::StatusOr<std::unique_ptr<JourneyStore>> OpenJourneyStore(const StoreOption
     queries = std::make_unique<QueryConnections>(path, Connection::Access::kReadOnly,
                                                  options.busy_timeout_ms, kMaxQueryConnections);
   }
-  return std::make_unique<SqliteJourneyStore>(std::move(lock), std::move(writer),
+  return std::make_unique<SqliteJourneyStore>(path, std::move(lock), std::move(writer),
                                               std::move(queries));
 }
 

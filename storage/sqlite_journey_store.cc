@@ -1,6 +1,8 @@
 #include "storage/sqlite_journey_store.h"
 
+#include "absl/strings/str_cat.h"
 #include "homing/status_macros.h"
+#include "storage/backup.h"
 #include "storage/journey_rows.h"
 #include "storage/map_rows.h"
 #include "storage/model_rows.h"
@@ -125,6 +127,20 @@ absl::Status SqliteJourneyStore::ImportJourney(const JourneyRecord& record, cons
     WriteMap(connection, id, map);
     return absl::OkStatus();
   });
+}
+
+absl::StatusOr<std::unique_ptr<std::istream>> SqliteJourneyStore::BackUp() {
+  if (!queries_ || read_only()) {
+    return absl::FailedPreconditionError(
+        absl::StrCat("store: '", path_, "' is ",
+                     read_only() ? "read-only: its file itself may be copied"
+                                 : "in memory and cannot be copied"));
+  }
+  const std::unique_lock lock(backup_mutex_, std::try_to_lock);
+  if (!lock) {
+    return absl::AbortedError("store: another copy is being made; try again when it is done");
+  }
+  return CopyForReading(path_, path_ + "-backup");
 }
 
 absl::Status SqliteJourneyStore::CreateModel(const StoredModel& model) {

@@ -19,9 +19,12 @@ class SqliteJourneyStore final : public JourneyStore {
  public:
   // `lock` and `queries` are null for a store in memory, which only its one connection sees;
   // `writer` is null for a read-only one.
-  SqliteJourneyStore(std::unique_ptr<StoreLock> lock, std::unique_ptr<Connection> writer,
-                     std::unique_ptr<QueryConnections> queries)
-      : lock_(std::move(lock)), writer_(std::move(writer)), queries_(std::move(queries)) {}
+  SqliteJourneyStore(std::string path, std::unique_ptr<StoreLock> lock,
+                     std::unique_ptr<Connection> writer, std::unique_ptr<QueryConnections> queries)
+      : path_(std::move(path)),
+        lock_(std::move(lock)),
+        writer_(std::move(writer)),
+        queries_(std::move(queries)) {}
 
   absl::Status CreateJourney(const JourneyRecord& record) override;
   absl::StatusOr<JourneyRecord> GetJourney(const std::string& name) override;
@@ -37,6 +40,7 @@ class SqliteJourneyStore final : public JourneyStore {
   absl::Status WriteHealth() override;
   absl::Status ProbeWrite() override;
   bool read_only() const override { return writer_ == nullptr; }
+  absl::StatusOr<std::unique_ptr<std::istream>> BackUp() override;
   absl::Status CreateModel(const StoredModel& model) override;
   absl::StatusOr<StoredModel> GetModel(const std::string& name) override;
   absl::StatusOr<std::vector<StoredModel>> ListModels(const std::string& after, int limit) override;
@@ -51,6 +55,7 @@ class SqliteJourneyStore final : public JourneyStore {
   template <typename Result, typename Query>
   absl::StatusOr<Result> ReadOne(Query query);
 
+  const std::string path_;
   // Let go of last.
   const std::unique_ptr<StoreLock> lock_;
   std::mutex write_mutex_;
@@ -60,6 +65,8 @@ class SqliteJourneyStore final : public JourneyStore {
   // Guarded by health_mutex_, so that asking never waits for a write.
   absl::Status write_health_;
   std::unique_ptr<QueryConnections> queries_;
+  // While a copy is being made.
+  std::mutex backup_mutex_;
 };
 
 }  // namespace homing::storage

@@ -8,6 +8,7 @@
 #include "client/command/commands.h"
 #include "client/command/flags.h"
 #include "client/command/json_line.h"
+#include "client/command/output_file.h"
 #include "client/journey_client.h"
 #include "homing/status_macros.h"
 
@@ -121,20 +122,10 @@ absl::Status Export(const Session& session, const JourneysFlags& flags) {
   HOMING_ASSIGN_OR_RETURN(const Connection connection, session.Connect());
   JourneyClient client(&connection, session.stop);
   if (flags.file == "-") return client.Export(flags.journey, std::cout);
-  const std::string part = flags.file + ".part";
-  std::ofstream file(part, std::ios::binary | std::ios::trunc);
-  if (!file) return absl::PermissionDeniedError(absl::StrCat("cannot write ", part));
-  absl::Status status = client.Export(flags.journey, file);
-  file.close();
-  if (status.ok() && !file) status = absl::ResourceExhaustedError("cannot write " + part);
-  std::error_code error;
-  if (status.ok()) std::filesystem::rename(part, flags.file, error);
-  if (!status.ok() || error) {
-    std::error_code ignored;
-    std::filesystem::remove(part, ignored);
-    return status.ok() ? absl::PermissionDeniedError("cannot write " + flags.file) : status;
-  }
-  const auto bytes = std::filesystem::file_size(flags.file, error);
+  HOMING_ASSIGN_OR_RETURN(const std::uintmax_t bytes,
+                          WriteOutputFile(flags.file, [&](std::ostream& file) {
+                            return client.Export(flags.journey, file);
+                          }));
   if (session.json) {
     return session.PrintJson(
         Json{{"journey", flags.journey}, {"file", flags.file}, {"bytes", bytes}});

@@ -29,6 +29,7 @@ bool AllowsRobot(Right right, Standing standing) {
     case Right::kLocalize:
       return standing != Standing::kOther;
     case Right::kTrain:
+    case Right::kBackUp:
       return false;
     case Right::kSeeModels:
       return true;

@@ -16,7 +16,7 @@ enum class Role {
   kLocalizeOnly,
   // Writes its own journeys; reads these and what lists it among its readers.
   kRobot,
-  // Reads all, deletes, trains models; writes no journey.
+  // Reads all, takes backups, deletes, trains models; writes no journey.
   kOperator,
   // Everything.
   kAdmin,

@@ -23,6 +23,7 @@ enum class Rpc {
   kTrainDeviationModel,
   kGetDeviationModel,
   kListDeviationModels,
+  kBackUpStore,
 };
 
 // What a method does, as far as rights go.
@@ -39,6 +40,8 @@ enum class Right {
   // Makes a deviation model, which all robots share.
   kTrain,
   kSeeModels,
+  // Takes everything there is.
+  kBackUp,
 };
 
 struct RpcTraits {
@@ -50,7 +53,7 @@ struct RpcTraits {
   std::string_view field;
 };
 
-inline constexpr std::array<RpcTraits, 15> kRpcs = {{
+inline constexpr std::array<RpcTraits, 16> kRpcs = {{
     {Rpc::kCreateJourney, "homing.v1.JourneyService/CreateJourney", Right::kWrite, "parent"},
     {Rpc::kGetJourney, "homing.v1.JourneyService/GetJourney", Right::kSee, "name"},
     {Rpc::kListJourneys, "homing.v1.JourneyService/ListJourneys", Right::kSee, "parent"},
@@ -70,6 +73,7 @@ inline constexpr std::array<RpcTraits, 15> kRpcs = {{
      Right::kSeeModels, ""},
     {Rpc::kListDeviationModels, "homing.v1.DeviationModelService/ListDeviationModels",
      Right::kSeeModels, ""},
+    {Rpc::kBackUpStore, "homing.v1.StoreService/BackUpStore", Right::kBackUp, ""},
 }};
 
 // In the order of the enumeration.

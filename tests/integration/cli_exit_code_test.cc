@@ -19,8 +19,8 @@ TEST_F(CliExitCodeTest, HelpAndVersionAreDone) {
   const Ran help = Run({HOMING_PROGRAM, "--help"});
   EXPECT_EQ(help.code, 0);
   EXPECT_FALSE(help.lines.empty());
-  for (const char* command :
-       {"record", "localize", "match", "journeys", "train", "simulate", "draw", "evaluate"}) {
+  for (const char* command : {"record", "localize", "match", "journeys", "train", "simulate",
+                              "draw", "evaluate", "bench", "backup"}) {
     EXPECT_EQ(Run({HOMING_PROGRAM, command, "--help"}).code, 0) << command;
   }
   EXPECT_THAT(Run({HOMING_PROGRAM, "--version"}).lines.at(0), HasSubstr("homing 0."));

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <fstream>
 
 #include "tests/integration/cli_fixture.h"
@@ -110,6 +111,24 @@ TEST_F(CliJsonTest, JourneysListShowExportImportDelete) {
   EXPECT_EQ(Export("robots/a/journeys/copy"), exported);
   EXPECT_EQ(Homing({"journeys", "delete", "--json", kJourney}).Json()[0]["deleted"], true);
   EXPECT_EQ(Homing({"journeys", "list", "--json"}).lines.size(), 1U);
+}
+
+TEST_F(CliJsonTest, BackupIsADatabaseThatAServerCanUse) {
+  StartServer();
+  ASSERT_EQ(Record().code, 0);
+  const std::string exported = Export(kJourney);
+  const Ran ran = Homing({"backup", "--json", Path("copy.db")});
+  ASSERT_EQ(ran.code, 0) << ran.errors;
+  EXPECT_EQ(ran.Json()[0]["bytes"], std::filesystem::file_size(Path("copy.db")));
+  EXPECT_FALSE(std::filesystem::exists(Path("copy.db.part")));
+  Program server({HOMING_SERVER_PROGRAM, "--listen", "127.0.0.1:0", "--database",
+                  "sqlite:" + Path("copy.db")});
+  const std::string line = server.ReadLine().value_or("");
+  Program from_copy({HOMING_PROGRAM, "--server", line.substr(line.rfind(' ') + 1), "journeys",
+                     "export", kJourney, Path("from_copy")});
+  ASSERT_EQ(from_copy.Wait(), 0) << from_copy.Stderr();
+  std::ifstream file(Path("from_copy"), std::ios::binary);
+  EXPECT_EQ(std::string(std::istreambuf_iterator<char>(file), {}), exported);
 }
 
 TEST_F(CliJsonTest, ImportRefusesADamagedFile) {

@@ -24,7 +24,7 @@ constexpr char kFleet[] = "robots/owner/journeys/fleet";
 constexpr char kGuides[] = "robots/guide/journeys/own";
 
 // The rights of a caller to a journey, a letter each: Write, Delete, See, take Map, Localize,
-// Train, see models.
+// Train, see models, take a Backup.
 struct Row {
   const char* identity;
   const char* journey;
@@ -32,18 +32,27 @@ struct Row {
 };
 
 constexpr Row kRows[] = {
-    {"operators/chief", kPrivate, "WDSMLTm"}, {"operators/anna", kPrivate, "DSMLTm"},
-    {"operators/anna", kFleet, "DSMLTm"},     {"robots/owner", kPrivate, "WDSMLm"},
-    {"robots/owner", kListed, "WDSMLm"},      {"robots/owner", kGuides, "m"},
-    {"robots/reader", kPrivate, "m"},         {"robots/reader", kListed, "SMLm"},
-    {"robots/reader", kFleet, "SMLm"},        {"robots/other", kPrivate, "m"},
-    {"robots/other", kListed, "m"},           {"robots/other", kFleet, "SMLm"},
-    {"robots/guide", kPrivate, "m"},          {"robots/guide", kListed, "SLm"},
-    {"robots/guide", kFleet, "SLm"},          {"robots/guide", kGuides, "SLm"},
-    {"robots/banned", kPrivate, ""},          {"robots/banned", kFleet, ""},
+    {"operators/chief", kPrivate, "WDSMLTmB"},
+    {"operators/anna", kPrivate, "DSMLTmB"},
+    {"operators/anna", kFleet, "DSMLTmB"},
+    {"robots/owner", kPrivate, "WDSMLm"},
+    {"robots/owner", kListed, "WDSMLm"},
+    {"robots/owner", kGuides, "m"},
+    {"robots/reader", kPrivate, "m"},
+    {"robots/reader", kListed, "SMLm"},
+    {"robots/reader", kFleet, "SMLm"},
+    {"robots/other", kPrivate, "m"},
+    {"robots/other", kListed, "m"},
+    {"robots/other", kFleet, "SMLm"},
+    {"robots/guide", kPrivate, "m"},
+    {"robots/guide", kListed, "SLm"},
+    {"robots/guide", kFleet, "SLm"},
+    {"robots/guide", kGuides, "SLm"},
+    {"robots/banned", kPrivate, ""},
+    {"robots/banned", kFleet, ""},
 };
 
-char LetterOf(Right right) { return "WDSMLTm"[static_cast<std::size_t>(right)]; }
+char LetterOf(Right right) { return "WDSMLTmB"[static_cast<std::size_t>(right)]; }
 
 class AccessTableTest : public ServerTest {
  protected:
@@ -187,8 +196,8 @@ TEST_F(AccessTableTest, HealthIsForEveryone) {
 
 TEST_F(AccessTableTest, EveryMethodOfTheApiHasARow) {
   std::vector<std::string> methods;
-  for (const char* name :
-       {"homing.v1.JourneyService", "homing.v1.HomingService", "homing.v1.DeviationModelService"}) {
+  for (const char* name : {"homing.v1.JourneyService", "homing.v1.HomingService",
+                           "homing.v1.DeviationModelService", "homing.v1.StoreService"}) {
     const auto* service =
         google::protobuf::DescriptorPool::generated_pool()->FindServiceByName(name);
     ASSERT_NE(service, nullptr);

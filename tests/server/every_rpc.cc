@@ -24,7 +24,8 @@ EveryRpc::EveryRpc(const std::shared_ptr<grpc::Channel>& channel, std::string to
     : token_(std::move(token)),
       journeys_(v1::JourneyService::NewStub(channel)),
       homing_(v1::HomingService::NewStub(channel)),
-      models_(v1::DeviationModelService::NewStub(channel)) {}
+      models_(v1::DeviationModelService::NewStub(channel)),
+      store_(v1::StoreService::NewStub(channel)) {}
 
 std::unique_ptr<grpc::ClientContext> EveryRpc::Context() const {
   auto context = std::make_unique<grpc::ClientContext>();
@@ -150,6 +151,16 @@ grpc::Status EveryRpc::Export(const std::string& journey) {
   return stream->Finish();
 }
 
+grpc::Status EveryRpc::BackUp(std::string* file) {
+  const auto context = Context();
+  const auto stream = store_->BackUpStore(context.get(), {});
+  v1::BackUpStoreResponse response;
+  while (stream->Read(&response)) {
+    if (file != nullptr) *file += response.chunk();
+  }
+  return stream->Finish();
+}
+
 grpc::Status EveryRpc::Import(const std::string& journey) {
   const auto context = Context();
   v1::ImportJourneyResponse response;
@@ -233,6 +244,8 @@ grpc::Status EveryRpc::Call(Rpc rpc, const std::string& journey) {
     case Rpc::kGetDeviationModel:
     case Rpc::kListDeviationModels:
       return CallModels(rpc);
+    case Rpc::kBackUpStore:
+      return BackUp();
     default:
       return CallJourneys(rpc, journey);
   }

@@ -12,6 +12,7 @@
 #include "homing/v1/deviation_model_service.grpc.pb.h"
 #include "homing/v1/homing_service.grpc.pb.h"
 #include "homing/v1/journey_service.grpc.pb.h"
+#include "homing/v1/store_service.grpc.pb.h"
 #include "server/access/rpc.h"
 
 namespace homing::server {
@@ -27,6 +28,8 @@ class EveryRpc {
   // What one who may gets: an answer, or an error that only comes after the question of rights.
   static grpc::StatusCode ExpectedCode(Rpc rpc);
 
+  // Appends the copy of the store to `file`, if any.
+  grpc::Status BackUp(std::string* file = nullptr);
   // Names of what ListJourneys of `parent` gives.
   std::vector<std::string> List(const std::string& parent);
   grpc::Status Create(const std::string& journey, const std::vector<std::string>& readers);
@@ -48,6 +51,7 @@ class EveryRpc {
   std::unique_ptr<v1::JourneyService::Stub> journeys_;
   std::unique_ptr<v1::HomingService::Stub> homing_;
   std::unique_ptr<v1::DeviationModelService::Stub> models_;
+  std::unique_ptr<v1::StoreService::Stub> store_;
 };
 
 }  // namespace homing::server

@@ -12,10 +12,10 @@ namespace {
 // The letters of the rights that a role has to a journey it stands so to.
 std::string RightsOf(Role role, Standing standing) {
   std::string rights;
-  const std::pair<Right, char> letters[] = {{Right::kWrite, 'W'},    {Right::kDelete, 'D'},
-                                            {Right::kSee, 'S'},      {Right::kTakeMap, 'M'},
-                                            {Right::kLocalize, 'L'}, {Right::kTrain, 'T'},
-                                            {Right::kSeeModels, 'm'}};
+  const std::pair<Right, char> letters[] = {{Right::kWrite, 'W'},     {Right::kDelete, 'D'},
+                                            {Right::kSee, 'S'},       {Right::kTakeMap, 'M'},
+                                            {Right::kLocalize, 'L'},  {Right::kTrain, 'T'},
+                                            {Right::kSeeModels, 'm'}, {Right::kBackUp, 'B'}};
   for (const auto& [right, letter] : letters) {
     if (Allows(role, right, standing)) {
       rights += letter;
@@ -34,8 +34,8 @@ TEST(RoleTest, EachRoleHasItsRightsAndNoOthers) {
       {Role::kNone, "", "", ""},
       {Role::kLocalizeOnly, "SLm", "SLm", "m"},
       {Role::kRobot, "WDSMLm", "SMLm", "m"},
-      {Role::kOperator, "DSMLTm", "DSMLTm", "DSMLTm"},
-      {Role::kAdmin, "WDSMLTm", "WDSMLTm", "WDSMLTm"},
+      {Role::kOperator, "DSMLTmB", "DSMLTmB", "DSMLTmB"},
+      {Role::kAdmin, "WDSMLTmB", "WDSMLTmB", "WDSMLTmB"},
   };
   for (const auto& row : rows) {
     EXPECT_EQ(RightsOf(row.role, Standing::kOwner), row.owner) << NameOf(row.role);

@@ -1,0 +1,37 @@
+#include <iostream>
+#include <memory>
+#include <string>
+
+#include "absl/strings/str_cat.h"
+#include "client/command/commands.h"
+#include "client/command/json_line.h"
+#include "client/command/output_file.h"
+#include "client/store_client.h"
+#include "homing/status_macros.h"
+
+namespace homing::client {
+namespace {
+
+absl::Status BackUp(const Session& session, const std::string& path) {
+  HOMING_ASSIGN_OR_RETURN(const Connection connection, session.Connect());
+  const auto write = [&](std::ostream& file) {
+    return BackUpStore(connection, file, session.stop);
+  };
+  if (path == "-") return write(std::cout);
+  HOMING_ASSIGN_OR_RETURN(const std::uintmax_t bytes, WriteOutputFile(path, write));
+  if (session.json) return session.PrintJson(Json{{"file", path}, {"bytes", bytes}});
+  return session.Print(absl::StrCat(path, ": ", bytes, " bytes"));
+}
+
+}  // namespace
+
+void AddBackupCommand(CLI::App& app, Session& session) {
+  CLI::App& command =
+      *app.add_subcommand("backup", "A copy of the server's whole database, to one file");
+  auto path = std::make_shared<std::string>();
+  command.add_option("file,--out", *path, "FILE to write, - for stdout")->required();
+  command.callback(
+      [path, &session] { session.run = [path, &session] { return BackUp(session, *path); }; });
+}
+
+}  // namespace homing::client
