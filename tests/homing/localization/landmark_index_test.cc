@@ -245,7 +245,8 @@ TEST(LandmarkIndexTest, AgreesWithTheScanOfMaps) {
       side.push_back({.x = place(random), .y = place(random), .count = count(random)});
       side.push_back({.x = place(random), .y = place(random), .count = count(random)});
     }
-    ExpectSame(index.FindLandmarks(seen, {10, 0.2}, nullptr), Matcher().Find(refs, seen, {10, 0.2}));
+    ExpectSame(index.FindLandmarks(seen, {10, 0.2}, nullptr),
+               Matcher().Find(refs, seen, {10, 0.2}));
   }
 }
 
