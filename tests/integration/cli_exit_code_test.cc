@@ -10,8 +10,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-constexpr char kScene[] = "sim:street,length=2";
-constexpr char kJourney[] = "robots/a/journeys/b";
+constexpr char kShortScene[] = "sim:street,length=2";
 
 class CliExitCodeTest : public CliTest {};
 
@@ -32,14 +31,14 @@ TEST_F(CliExitCodeTest, WrongUsageIsTwo) {
       {"fly"},
       {"record"},
       {"record", "--journey", kJourney},
-      {"record", "--journey", "b", "--left", kScene},
+      {"record", "--journey", "b", "--left", kShortScene},
       {"record", "--journey", kJourney, "--left", "sim:moon"},
       {"record", "--journey", kJourney, "--left", "sim:street,length=-3"},
-      {"record", "--journey", kJourney, "--left", kScene, "--send", "pigeons"},
-      {"record", "--journey", kJourney, "--left", kScene, "--left-camera", "1,2"},
-      {"record", "--journey", kJourney, "--left", kScene, "--no-such-flag"},
-      {"localize", "--journey", kJourney, "--left", kScene, "--threshold", "7"},
-      {"localize", "--journey", kJourney, "--left", kScene, "--travel", "sideways"},
+      {"record", "--journey", kJourney, "--left", kShortScene, "--send", "pigeons"},
+      {"record", "--journey", kJourney, "--left", kShortScene, "--left-camera", "1,2"},
+      {"record", "--journey", kJourney, "--left", kShortScene, "--no-such-flag"},
+      {"localize", "--journey", kJourney, "--left", kShortScene, "--threshold", "7"},
+      {"localize", "--journey", kJourney, "--left", kShortScene, "--travel", "sideways"},
       {"match", "--journey", kJourney, "--left", "only_one.png"},
       {"journeys"},
       {"journeys", "show"},
@@ -59,8 +58,8 @@ TEST_F(CliExitCodeTest, WrongUsageIsTwo) {
 TEST_F(CliExitCodeTest, AnUnreachableServerIsThreeAndNamed) {
   address_ = "127.0.0.1:1";
   const std::vector<std::vector<std::string>> commands = {
-      {"record", "--journey", kJourney, "--left", kScene},
-      {"localize", "--journey", kJourney, "--left", kScene},
+      {"record", "--journey", kJourney, "--left", kShortScene},
+      {"localize", "--journey", kJourney, "--left", kShortScene},
       {"journeys", "list"},
       {"journeys", "show", kJourney},
       {"train", "--width", "320", "--height", "240"},
@@ -75,7 +74,7 @@ TEST_F(CliExitCodeTest, AnUnreachableServerIsThreeAndNamed) {
 TEST_F(CliExitCodeTest, AnUnknownJourneyIsOne) {
   StartServer();
   for (const auto& arguments : std::vector<std::vector<std::string>>{
-           {"localize", "--journey", "robots/a/journeys/none", "--left", kScene},
+           {"localize", "--journey", "robots/a/journeys/none", "--left", kShortScene},
            {"journeys", "show", "robots/a/journeys/none"},
            {"journeys", "delete", "robots/a/journeys/none"},
            {"journeys", "export", "robots/a/journeys/none", Path("none")}}) {
@@ -111,8 +110,8 @@ TEST_F(CliExitCodeTest, ADamagedImageIsOneAndSaysWhy) {
 
 TEST_F(CliExitCodeTest, AFinishedJourneyIsNotRecordedAgain) {
   StartServer();
-  ASSERT_EQ(Homing({"record", "--journey", kJourney, "--left", kScene}).code, 0);
-  const Ran again = Homing({"record", "--journey", kJourney, "--left", kScene});
+  ASSERT_EQ(Homing({"record", "--journey", kJourney, "--left", kShortScene}).code, 0);
+  const Ran again = Homing({"record", "--journey", kJourney, "--left", kShortScene});
   EXPECT_EQ(again.code, 1);
   EXPECT_THAT(again.errors, HasSubstr("ALREADY_EXISTS"));
 }

@@ -14,6 +14,8 @@
 
 namespace homing {
 
+inline constexpr char kJourney[] = "robots/a/journeys/b";
+
 // What one run of a program left.
 struct Ran {
   int code = 0;

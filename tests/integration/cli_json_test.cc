@@ -15,7 +15,6 @@ using ::testing::HasSubstr;
 
 constexpr char kOut[] = "sim:street,length=8";
 constexpr char kHome[] = "sim:street,length=8,speed=5,offset=-0.5,travel=return";
-constexpr char kJourney[] = "robots/a/journeys/b";
 
 std::vector<std::string> Keys(const std::string& line) {
   std::vector<std::string> keys;

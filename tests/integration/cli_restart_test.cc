@@ -10,7 +10,6 @@ namespace {
 using ::testing::HasSubstr;
 
 constexpr char kScene[] = "sim:street,length=16";
-constexpr char kJourney[] = "robots/a/journeys/b";
 // Observations answered before the blow.
 constexpr std::size_t kAnswered = 25;
 

@@ -13,8 +13,6 @@ namespace {
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
-constexpr auto kInvalid = grpc::StatusCode::INVALID_ARGUMENT;
-
 // Beside the bad one there is a journey that is recorded all the while, and a finished one.
 class BadInputTest : public ServerTest {
  protected:

@@ -6,8 +6,6 @@ namespace {
 
 using ::testing::HasSubstr;
 
-constexpr auto kInvalid = grpc::StatusCode::INVALID_ARGUMENT;
-
 class ModelServiceTest : public ServerTest {
  protected:
   grpc::Status Train(const v1::TrainDeviationModelRequest& request,

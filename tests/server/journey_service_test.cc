@@ -8,8 +8,6 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-constexpr auto kInvalid = grpc::StatusCode::INVALID_ARGUMENT;
-
 class JourneyServiceTest : public ServerTest {
  protected:
   grpc::Status CreateWith(const v1::CreateJourneyRequest& request) {

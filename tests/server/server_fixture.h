@@ -22,6 +22,7 @@
 namespace homing::server {
 
 inline constexpr char kJourney[] = "robots/r/journeys/out";
+inline constexpr auto kInvalid = grpc::StatusCode::INVALID_ARGUMENT;
 inline constexpr char kWriter[] = "writer";
 
 // StatusIs of a grpc::Status.

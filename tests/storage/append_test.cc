@@ -14,7 +14,6 @@ namespace {
 
 using ::testing::HasSubstr;
 
-constexpr char kJourney[] = "robots/r/journeys/j";
 constexpr char kOther[] = "robots/r/journeys/k";
 
 class AppendTest : public EveryStore {

@@ -17,8 +17,6 @@ namespace {
 
 using ::testing::HasSubstr;
 
-constexpr char kJourney[] = "robots/r/journeys/j";
-
 class BackupTest : public ::testing::Test {
  protected:
   TemporaryFolder folder_;

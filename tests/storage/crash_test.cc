@@ -10,8 +10,6 @@
 namespace homing::storage {
 namespace {
 
-constexpr char kJourney[] = "robots/r/journeys/j";
-
 // In the child: appends for ever and writes each acknowledged sequence to `pipe`.
 [[noreturn]] void AppendUntilKilled(const std::string& url, int pipe) {
   auto store = OpenOrDie(url);

@@ -15,8 +15,6 @@ namespace {
 
 using ::testing::HasSubstr;
 
-constexpr char kJourney[] = "robots/r/journeys/j";
-
 StoreOptions OptionsOf(const std::string& url) {
   StoreOptions options;
   options.url = url;

@@ -12,8 +12,6 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-constexpr char kJourney[] = "robots/r/journeys/j";
-
 std::vector<std::string> NamesOf(const std::vector<JourneyRecord>& records) {
   std::vector<std::string> names;
   for (const JourneyRecord& record : records) names.push_back(record.name);

@@ -17,8 +17,6 @@ namespace {
 namespace fs = std::filesystem;
 using ::testing::HasSubstr;
 
-constexpr char kJourney[] = "robots/r/journeys/j";
-
 class ReadOnlyTest : public ::testing::Test {
  protected:
   ReadOnlyTest() {

@@ -13,6 +13,8 @@
 
 namespace homing::storage {
 
+inline constexpr char kJourney[] = "robots/r/journeys/j";
+
 // A folder of its own, gone at the end.
 class TemporaryFolder {
  public:

@@ -8,7 +8,7 @@
 namespace homing {
 namespace {
 
-constexpr int kSteps = 60;
+constexpr int kMapSteps = 60;
 
 // A camera's field of `count` vectors at random places, about the middle of the image.
 FlowField RandomField(std::mt19937_64& engine, int count = 120) {
@@ -38,7 +38,7 @@ class ProfileLikelihoodTest : public ::testing::Test {
  protected:
   ProfileLikelihoodTest() {
     std::mt19937_64 engine(7);
-    for (int step = 0; step < kSteps; ++step) {
+    for (int step = 0; step < kMapSteps; ++step) {
       fields_.push_back(RandomField(engine));
       JourneyStep recorded{
           .step = step, .motion = Motion::kMoving, .fingerprints = {}, .profiles = {}};
@@ -59,12 +59,12 @@ class ProfileLikelihoodTest : public ::testing::Test {
   std::string name_ = "robots/a/journeys/b";
   JourneyMap map_;
   JourneyRef ref_{&name_, &map_};
-  StepMass predicted_{0, std::vector<float>(kSteps, 1.0F / kSteps)};
+  StepMass predicted_{0, std::vector<float>(kMapSteps, 1.0F / kMapSteps)};
   ProfileLikelihood likelihood_;
 };
 
 TEST_F(ProfileLikelihoodTest, TheStepItselfIsTheMostLikely) {
-  for (int step = 0; step < kSteps; ++step) {
+  for (int step = 0; step < kMapSteps; ++step) {
     const auto likelihood = See(fields_[static_cast<std::size_t>(step)]);
     EXPECT_EQ(std::ranges::max_element(likelihood) - likelihood.begin(), step);
     EXPECT_GT(std::log(likelihood[static_cast<std::size_t>(step)]), likelihood_.OffRoute());
@@ -76,14 +76,14 @@ TEST_F(ProfileLikelihoodTest, AForeignPlaceSpeaksForBeingOffTheRoute) {
   double mean = 0;
   for (int i = 0; i < 20; ++i) {
     for (const float value : See(RandomField(engine))) {
-      mean += double{value} / (20 * kSteps);
+      mean += double{value} / (20 * kMapSteps);
     }
   }
   EXPECT_LT(std::log(mean), likelihood_.OffRoute());
 }
 
 TEST_F(ProfileLikelihoodTest, LearnsThatTheRobotIsNearer) {
-  predicted_.mass.assign(kSteps, 0);
+  predicted_.mass.assign(kMapSteps, 0);
   predicted_.mass[20] = 1;
   // A first observation counts for more than any further one.
   See(fields_[20]);

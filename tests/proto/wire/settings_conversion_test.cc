@@ -68,7 +68,7 @@ TEST(SettingsConversion, ACameraWithoutIntrinsicsWorksInRawPixels) {
 
 // The settings of OddSettings() after `change` are refused, and `why` is in the message.
 template <typename Change>
-void ExpectRefused(Change change, const std::string& why) {
+void ExpectSettingsRefused(Change change, const std::string& why) {
   v1::JourneySettings message = ToProto(OddSettings());
   change(message);
   EXPECT_THAT(FromProto(message, "settings", JourneySettings()),
@@ -76,22 +76,26 @@ void ExpectRefused(Change change, const std::string& why) {
 }
 
 TEST(SettingsConversion, RefusesWrongSettingsByName) {
-  ExpectRefused([](v1::JourneySettings& m) { m.mutable_left_camera()->set_width(-1); },
-                "settings.left_camera.width is -1: must be 0 to 8192");
-  ExpectRefused([](v1::JourneySettings& m) { m.mutable_right_camera()->set_height(8193); },
-                "settings.right_camera.height is 8193");
-  ExpectRefused([](v1::JourneySettings& m) { m.mutable_left_camera()->add_distortion(1); },
-                "settings.left_camera.distortion has 6 entries");
-  ExpectRefused([](v1::JourneySettings& m) { m.mutable_left_camera()->set_distortion(0, NAN); },
-                "settings.left_camera: ");
-  ExpectRefused([](v1::JourneySettings& m) { m.mutable_left_camera()->set_yaw_rad(3); }, "yaw_rad");
-  ExpectRefused([](v1::JourneySettings& m) { m.mutable_right_camera()->set_yaw_rad(0.1); },
-                "yaw_rad");
-  ExpectRefused([](v1::JourneySettings& m) { m.mutable_flow()->set_window_px(14); }, "window_px");
-  ExpectRefused([](v1::JourneySettings& m) { m.mutable_flow()->set_min_eigenvalue(NAN); },
-                "min_eigenvalue");
-  ExpectRefused([](v1::JourneySettings& m) { m.mutable_landmark()->set_min_peak_share(0.6); },
-                "min_peak_share");
+  ExpectSettingsRefused([](v1::JourneySettings& m) { m.mutable_left_camera()->set_width(-1); },
+                        "settings.left_camera.width is -1: must be 0 to 8192");
+  ExpectSettingsRefused([](v1::JourneySettings& m) { m.mutable_right_camera()->set_height(8193); },
+                        "settings.right_camera.height is 8193");
+  ExpectSettingsRefused([](v1::JourneySettings& m) { m.mutable_left_camera()->add_distortion(1); },
+                        "settings.left_camera.distortion has 6 entries");
+  ExpectSettingsRefused(
+      [](v1::JourneySettings& m) { m.mutable_left_camera()->set_distortion(0, NAN); },
+      "settings.left_camera: ");
+  ExpectSettingsRefused([](v1::JourneySettings& m) { m.mutable_left_camera()->set_yaw_rad(3); },
+                        "yaw_rad");
+  ExpectSettingsRefused([](v1::JourneySettings& m) { m.mutable_right_camera()->set_yaw_rad(0.1); },
+                        "yaw_rad");
+  ExpectSettingsRefused([](v1::JourneySettings& m) { m.mutable_flow()->set_window_px(14); },
+                        "window_px");
+  ExpectSettingsRefused([](v1::JourneySettings& m) { m.mutable_flow()->set_min_eigenvalue(NAN); },
+                        "min_eigenvalue");
+  ExpectSettingsRefused(
+      [](v1::JourneySettings& m) { m.mutable_landmark()->set_min_peak_share(0.6); },
+      "min_peak_share");
 }
 
 }  // namespace
