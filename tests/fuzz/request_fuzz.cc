@@ -9,6 +9,7 @@
 
 #include "homing/v1/journey_service.grpc.pb.h"
 #include "proto/wire/observation_conversion.h"
+#include "server/access/rpc.h"
 #include "server/homing_server.h"
 #include "tests/fuzz/fuzz_input.h"
 #include "tests/support/route.h"
@@ -16,21 +17,6 @@
 namespace homing::fuzz {
 namespace {
 
-constexpr const char* kMethods[] = {"JourneyService/CreateJourney",
-                                    "JourneyService/GetJourney",
-                                    "JourneyService/ListJourneys",
-                                    "JourneyService/DeleteJourney",
-                                    "JourneyService/FinishJourney",
-                                    "JourneyService/RecordJourney",
-                                    "JourneyService/ListLandmarks",
-                                    "JourneyService/AnalyzeAliasing",
-                                    "JourneyService/ExportJourney",
-                                    "JourneyService/ImportJourney",
-                                    "HomingService/MatchLandmarks",
-                                    "HomingService/Localize",
-                                    "DeviationModelService/TrainDeviationModel",
-                                    "DeviationModelService/GetDeviationModel",
-                                    "DeviationModelService/ListDeviationModels"};
 // What requests have stored goes with the server.
 constexpr int kInputsAServer = 1000;
 constexpr std::size_t kMostMessages = 32;
@@ -140,8 +126,8 @@ void Run(FuzzInput input) {
     server.reset();
     server = std::make_unique<Server>();
   }
-  const auto method = input.Take<std::uint8_t>() % std::size(kMethods);
-  RawCall call(server->channel(), std::string("/homing.v1.") + kMethods[method]);
+  const auto rpc = input.Take<std::uint8_t>() % server::kRpcs.size();
+  RawCall call(server->channel(), "/" + std::string(server::kRpcs[rpc].method));
   for (std::size_t i = 0; i < kMostMessages && !input.empty(); ++i) {
     const auto size = input.Take<std::uint16_t>();
     if (!call.Write(input.TakeBytes(size))) break;

@@ -26,7 +26,7 @@ class BackupTest : public ::testing::Test {
 
 // Every copy is the store as of some moment between two commits.
 TEST_F(BackupTest, ACopyTakenWhileAWriterWritesIsWhole) {
-  auto store = OpenOrDie(folder_.Url());
+  auto store = OpenOrDie(folder_.Database());
   ASSERT_THAT(store->CreateJourney(Record(kJourney)), IsOk());
   const std::vector<JourneyStep> steps = MakeSteps(3000);
   std::atomic<bool> stop = false;
@@ -55,20 +55,20 @@ TEST_F(BackupTest, ACopyTakenWhileAWriterWritesIsWhole) {
 TEST_F(BackupTest, ARestoredCopyGoesOn) {
   const std::vector<JourneyStep> steps = MakeSteps(50);
   {
-    auto store = OpenOrDie(folder_.Url());
+    auto store = OpenOrDie(folder_.Database());
     ASSERT_THAT(store->CreateJourney(Record(kJourney)), IsOk());
     AppendAll(*store, kJourney, {steps.begin(), steps.begin() + 30});
     ASSERT_THAT(BackUp(path_, copy_), IsOk());
     AppendAll(*store, kJourney, {steps.begin() + 30, steps.end()});
   }
   std::filesystem::rename(copy_, path_);
-  auto store = OpenOrDie(folder_.Url());
+  auto store = OpenOrDie(folder_.Database());
   AppendAll(*store, kJourney, {steps.begin() + 30, steps.end()});
   EXPECT_TRUE(SameMap(*store->LoadMap(kJourney), MapOf(OddSettings(), steps)));
 }
 
 TEST_F(BackupTest, LeavesNothingBesideTheCopy) {
-  OpenOrDie(folder_.Url());
+  OpenOrDie(folder_.Database());
   ASSERT_THAT(BackUp(path_, copy_), IsOk());
   for (const char* end : {".partial", "-wal", "-shm", ".partial-journal", ".partial-wal"}) {
     EXPECT_FALSE(std::filesystem::exists(copy_ + end)) << end;
@@ -82,7 +82,7 @@ TEST_F(BackupTest, NeverReplacesAFileAndSaysWhyItFails) {
   EXPECT_THAT(BackUp(path_, copy_),
               StatusIs(absl::StatusCode::kFailedPrecondition, HasSubstr("unable to open")));
   EXPECT_FALSE(std::filesystem::exists(copy_));
-  OpenOrDie(folder_.Url());
+  OpenOrDie(folder_.Database());
   EXPECT_THAT(BackUp(path_, folder_.File("none/copy.db")),
               StatusIs(absl::StatusCode::kFailedPrecondition, HasSubstr("unable to open")));
   std::ofstream{copy_} << "mine";

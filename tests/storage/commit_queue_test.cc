@@ -52,7 +52,7 @@ class HeldStore : public JourneyStore {
 
 TEST(CommitQueue, CallsBackOnlyAfterTheCommitInOrderOfSubmission) {
   const TemporaryFolder folder;
-  auto store = OpenOrDie(folder.Url());
+  auto store = OpenOrDie(folder.Database());
   ASSERT_THAT(store->CreateJourney(Record("j")), IsOk());
   const std::vector<JourneyStep> steps = MakeSteps(100);
   std::vector<std::int64_t> order;
@@ -105,7 +105,7 @@ TEST(CommitQueue, GroupsWhatWaitsRefusesTheRestAndDrains) {
 
 TEST(CommitQueue, ManyThreadsMaySubmit) {
   const TemporaryFolder folder;
-  auto store = OpenOrDie(folder.Url());
+  auto store = OpenOrDie(folder.Database());
   constexpr int kJourneys = 4;
   std::atomic<int> failed = 0;
   {

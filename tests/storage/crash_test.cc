@@ -23,13 +23,13 @@ namespace {
 
 TEST(Crash, WhatWasAcknowledgedSurvivesAKill) {
   const TemporaryFolder folder;
-  ASSERT_THAT(OpenOrDie(folder.Url())->CreateJourney(Record(kJourney)), IsOk());
+  ASSERT_THAT(OpenOrDie(folder.Database())->CreateJourney(Record(kJourney)), IsOk());
   std::int64_t acknowledged = -1;
   int ends[2];
   ASSERT_EQ(pipe(ends), 0);
   const pid_t child = fork();
   ASSERT_GE(child, 0);
-  if (child == 0) AppendUntilKilled(folder.Url(), ends[1]);
+  if (child == 0) AppendUntilKilled(folder.Database(), ends[1]);
   close(ends[1]);
   for (int i = 0; i < 40; ++i) {
     ASSERT_EQ(read(ends[0], &acknowledged, sizeof(acknowledged)),
@@ -44,7 +44,7 @@ TEST(Crash, WhatWasAcknowledgedSurvivesAKill) {
   }
   close(ends[0]);
 
-  auto store = OpenOrDie(folder.Url());
+  auto store = OpenOrDie(folder.Database());
   const auto record = store->GetJourney(kJourney);
   ASSERT_THAT(record, IsOk());
   EXPECT_GE(acknowledged, 39);

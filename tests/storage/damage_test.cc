@@ -26,7 +26,7 @@ class DamageTest : public ::testing::Test {
  protected:
   // A closed file with one journey of `steps` steps.
   void MakeFile(int steps) {
-    auto store = OpenOrDie(folder_.Url());
+    auto store = OpenOrDie(folder_.Database());
     ASSERT_THAT(store->CreateJourney(Record(kJourney)), IsOk());
     std::vector<JourneyAppend> appends;
     for (const JourneyStep& step : MakeSteps(steps)) appends.push_back(AppendOf(kJourney, step));
@@ -48,7 +48,7 @@ class DamageTest : public ::testing::Test {
 
 TEST_F(DamageTest, AFileThatIsNoDatabaseIsDataLoss) {
   std::ofstream(path_) << std::string(8192, 'x');
-  EXPECT_THAT(OpenJourneyStore(OptionsOf(folder_.Url())),
+  EXPECT_THAT(OpenJourneyStore(OptionsOf(folder_.Database())),
               StatusIs(absl::StatusCode::kDataLoss, HasSubstr("not a database")));
 }
 
@@ -61,7 +61,7 @@ TEST_F(DamageTest, OverwrittenPagesAreDataLossAndNoCrash) {
     file.seekp(4096 * 4);
     for (auto at = 4096U * 4; at < size; ++at) file.put(static_cast<char>(at * 7));
   }
-  auto store = OpenJourneyStore(OptionsOf(folder_.Url()));
+  auto store = OpenJourneyStore(OptionsOf(folder_.Database()));
   ASSERT_THAT(store, IsOk());
   EXPECT_THAT((*store)->LoadMap(kJourney), StatusIs(absl::StatusCode::kDataLoss, HasSubstr("")));
 }
@@ -69,7 +69,7 @@ TEST_F(DamageTest, OverwrittenPagesAreDataLossAndNoCrash) {
 TEST_F(DamageTest, ATruncatedFileIsDataLoss) {
   MakeFile(500);
   std::filesystem::resize_file(path_, 4096 * 5);
-  auto store = OpenJourneyStore(OptionsOf(folder_.Url()));
+  auto store = OpenJourneyStore(OptionsOf(folder_.Database()));
   const absl::Status status = store.ok() ? (*store)->LoadMap(kJourney).status() : store.status();
   EXPECT_THAT(status, StatusIs(absl::StatusCode::kDataLoss, HasSubstr("")));
 }
@@ -97,14 +97,14 @@ TEST_F(DamageTest, RowsThatContradictEachOtherAreDataLoss) {
   for (const std::string& change : changes) {
     std::filesystem::copy_file(original, path_, std::filesystem::copy_options::overwrite_existing);
     Execute(change);
-    EXPECT_THAT(OpenOrDie(folder_.Url())->LoadMap(kJourney),
+    EXPECT_THAT(OpenOrDie(folder_.Database())->LoadMap(kJourney),
                 StatusIs(absl::StatusCode::kDataLoss, HasSubstr("store")))
         << change;
   }
 }
 
 TEST_F(DamageTest, AFullDiskIsToldAndStoresNothingByHalves) {
-  auto store = OpenOrDie(folder_.Url(), 200 * 1024);
+  auto store = OpenOrDie(folder_.Database(), 200 * 1024);
   ASSERT_THAT(store->CreateJourney(Record(kJourney)), IsOk());
   StepMaker maker;
   absl::Status status;
@@ -131,7 +131,7 @@ TEST_F(DamageTest, AFullDiskIsToldAndStoresNothingByHalves) {
 
 TEST_F(DamageTest, AFileThatAnotherProcessKeepsLockedIsUnavailable) {
   MakeFile(1);
-  auto store = OpenJourneyStore(OptionsOf(folder_.Url()));
+  auto store = OpenJourneyStore(OptionsOf(folder_.Database()));
   ASSERT_THAT(store, IsOk());
   auto other = Connection::Open(path_, Connection::Access::kReadWrite, 20);
   ASSERT_THAT(other, IsOk());
@@ -149,7 +149,7 @@ TEST_F(DamageTest, AFileThatAnotherProcessKeepsLockedIsUnavailable) {
 
 TEST_F(DamageTest, ARefusalIsNoFaultOfTheStore) {
   MakeFile(1);
-  auto store = OpenOrDie(folder_.Url());
+  auto store = OpenOrDie(folder_.Database());
   EXPECT_FALSE(store->DeleteJourney("robots/r/journeys/none").ok());
   EXPECT_FALSE(store->CreateJourney(Record(kJourney)).ok());
   EXPECT_THAT(store->WriteHealth(), IsOk());

@@ -29,7 +29,7 @@ std::string NameOf(int journey) { return "robots/r/journeys/" + std::to_string(j
 class DoctorTest : public ::testing::Test {
  protected:
   DoctorTest() {
-    auto store = OpenOrDie(folder_.Url());
+    auto store = OpenOrDie(folder_.Database());
     for (int i = 0; i < kJourneys; ++i) {
       EXPECT_THAT(store->CreateJourney(Record(NameOf(i))), IsOk());
       std::vector<JourneyAppend> appends;
@@ -81,7 +81,7 @@ TEST_F(DoctorTest, AWholeFileIsWholeAndIsNotTouched) {
 
 TEST_F(DoctorTest, SalvageKeepsAllOfAWholeFile) {
   ASSERT_THAT(Salvage(path_, saved_), IsOk());
-  auto from = OpenOrDie(folder_.Url());
+  auto from = OpenOrDie(folder_.Database());
   auto to = OpenOrDie("sqlite:" + saved_);
   for (int i = 0; i < kJourneys; ++i) {
     EXPECT_TRUE(SameMap(*to->LoadMap(NameOf(i)), *from->LoadMap(NameOf(i))));
@@ -167,7 +167,7 @@ TEST_F(DoctorTest, SalvageNeverReplacesAFile) {
 }
 
 TEST_F(DoctorTest, ItSeesAStoreInUseAsItIs) {
-  auto store = OpenOrDie(folder_.Url());
+  auto store = OpenOrDie(folder_.Database());
   ASSERT_THAT(store->CreateJourney(Record(NameOf(99))), IsOk());
   const auto diagnosis = Examine(path_);
   ASSERT_THAT(diagnosis, IsOk());

@@ -144,9 +144,9 @@ TEST(OpenJourneyStore, RefusesAFolderThatDoesNotExist) {
 
 TEST(OpenJourneyStore, IsForOneServerAtATime) {
   const TemporaryFolder folder;
-  auto first = OpenOrDie(folder.Url());
+  auto first = OpenOrDie(folder.Database());
   StoreOptions options;
-  options.url = folder.Url();
+  options.url = folder.Database();
   EXPECT_THAT(OpenJourneyStore(options),
               StatusIs(absl::StatusCode::kUnavailable, HasSubstr("another homing-server")));
   first.reset();

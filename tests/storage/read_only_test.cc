@@ -20,14 +20,14 @@ using ::testing::HasSubstr;
 class ReadOnlyTest : public ::testing::Test {
  protected:
   ReadOnlyTest() {
-    auto store = OpenOrDie(folder_.Url());
+    auto store = OpenOrDie(folder_.Database());
     EXPECT_THAT(store->CreateJourney(Record(kJourney)), IsOk());
     AppendAll(*store, kJourney, steps_);
   }
 
   absl::StatusOr<std::unique_ptr<JourneyStore>> Open() const {
     StoreOptions options;
-    options.url = folder_.Url();
+    options.url = folder_.Database();
     options.read_only = true;
     return OpenJourneyStore(options);
   }
@@ -78,10 +78,10 @@ TEST_F(ReadOnlyTest, ManyMayReadButNotBesideAWriter) {
     auto one = Open();
     EXPECT_THAT(one, IsOk());
     EXPECT_THAT(Open(), IsOk());
-    EXPECT_THAT(OpenJourneyStore({.url = folder_.Url()}),
+    EXPECT_THAT(OpenJourneyStore({.url = folder_.Database()}),
                 StatusIs(absl::StatusCode::kUnavailable, HasSubstr("in use")));
   }
-  auto writer = OpenOrDie(folder_.Url());
+  auto writer = OpenOrDie(folder_.Database());
   EXPECT_THAT(Open(), StatusIs(absl::StatusCode::kUnavailable, HasSubstr("in use")));
 }
 

@@ -54,7 +54,7 @@ TEST_P(OldSchema, OpensWithAllItsJourneysAndTakesMore) {
   const TemporaryFolder folder;
   Execute(folder.File("homing.db"),
           ReadText(HOMING_SCHEMA_DIR "/v" + std::to_string(GetParam()) + ".sql"));
-  auto store = OpenOrDie(folder.Url());
+  auto store = OpenOrDie(folder.Database());
   const std::vector<JourneyStep> steps = MakeSteps(20);
   const auto map = store->LoadMap("robots/old/journeys/1");
   ASSERT_THAT(map, IsOk());
@@ -71,7 +71,7 @@ INSTANTIATE_TEST_SUITE_P(Versions, OldSchema,
 
 TEST(Schema, ANewFileHasTheVersionAndTheMarkOfThisProgram) {
   const TemporaryFolder folder;
-  OpenOrDie(folder.Url());
+  OpenOrDie(folder.Database());
   const std::string path = folder.File("homing.db");
   EXPECT_EQ(Ask(path, "PRAGMA user_version"), "2");
   EXPECT_EQ(Ask(path, "PRAGMA application_id"), std::to_string(0x484F4D49));
@@ -81,10 +81,10 @@ TEST(Schema, ANewFileHasTheVersionAndTheMarkOfThisProgram) {
 TEST(Schema, ANewerVersionIsRefusedAndLeftAsItIs) {
   const TemporaryFolder folder;
   const std::string path = folder.File("homing.db");
-  OpenOrDie(folder.Url());
+  OpenOrDie(folder.Database());
   Execute(path, "PRAGMA user_version=3");
   StoreOptions options;
-  options.url = folder.Url();
+  options.url = folder.Database();
   EXPECT_THAT(OpenJourneyStore(options), StatusIs(absl::StatusCode::kFailedPrecondition,
                                                   HasSubstr("version is 3, newer than")));
   EXPECT_EQ(Ask(path, "PRAGMA user_version"), "3");
@@ -95,7 +95,7 @@ TEST(Schema, AnotherProgramsFileIsRefusedAndLeftAsItIs) {
   const std::string path = folder.File("homing.db");
   Execute(path, "CREATE TABLE songs (title TEXT)");
   StoreOptions options;
-  options.url = folder.Url();
+  options.url = folder.Database();
   EXPECT_THAT(OpenJourneyStore(options),
               StatusIs(absl::StatusCode::kFailedPrecondition, HasSubstr("another program")));
   EXPECT_EQ(Ask(path, "SELECT count(*) FROM sqlite_schema"), "1");
@@ -104,7 +104,7 @@ TEST(Schema, AnotherProgramsFileIsRefusedAndLeftAsItIs) {
 TEST(Schema, PlainSqlReadsTheJourneysByName) {
   const TemporaryFolder folder;
   const std::string path = folder.File("homing.db");
-  auto store = OpenOrDie(folder.Url());
+  auto store = OpenOrDie(folder.Database());
   const std::vector<JourneyStep> steps = MakeSteps(12);
   for (const char* name : {"a", "b"}) {
     ASSERT_THAT(store->CreateJourney(Record(name)), IsOk());

@@ -15,7 +15,7 @@ double BytesPerFingerprint(int journeys, int steps, int batch) {
   const TemporaryFolder folder;
   std::int64_t fingerprints = 0;
   {
-    auto store = OpenOrDie(folder.Url());
+    auto store = OpenOrDie(folder.Database());
     std::vector<StepMaker> makers(static_cast<std::size_t>(journeys));
     std::vector<std::string> names;
     for (int j = 0; j < journeys; ++j) {
@@ -56,7 +56,7 @@ TEST(StoreSize, ACameraStepWithItsFlowProfileTakesAtMost160Bytes) {
   const TemporaryFolder folder;
   constexpr int kSteps = 4000;
   {
-    auto store = OpenOrDie(folder.Url());
+    auto store = OpenOrDie(folder.Database());
     EXPECT_THAT(store->CreateJourney(Record("robots/r/journeys/j")), IsOk());
     AppendAll(*store, "robots/r/journeys/j", WithProfiles(MakeSteps(kSteps)));
   }

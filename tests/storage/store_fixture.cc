@@ -1,7 +1,6 @@
 #include "tests/storage/store_fixture.h"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cstdlib>
@@ -10,18 +9,7 @@
 
 namespace homing::storage {
 
-TemporaryFolder::TemporaryFolder() {
-  std::string pattern = (std::filesystem::temp_directory_path() / "homing_storage_XXXXXX").string();
-  if (mkdtemp(pattern.data()) == nullptr) std::abort();
-  path_ = pattern;
-}
-
-TemporaryFolder::~TemporaryFolder() {
-  std::error_code ignored;
-  std::filesystem::remove_all(path_, ignored);
-}
-
-EveryStore::EveryStore() : store_(OpenOrDie(GetParam() ? folder_.Url() : "sqlite::memory:")) {}
+EveryStore::EveryStore() : store_(OpenOrDie(GetParam() ? folder_.Database() : "sqlite::memory:")) {}
 
 std::unique_ptr<JourneyStore> OpenOrDie(const std::string& url, std::int64_t max_bytes) {
   StoreOptions options;

@@ -4,31 +4,16 @@
 
 #include <gtest/gtest.h>
 
-#include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "storage/journey_store.h"
+#include "tests/support/temporary_folder.h"
 
 namespace homing::storage {
 
 inline constexpr char kJourney[] = "robots/r/journeys/j";
-
-// A folder of its own, gone at the end.
-class TemporaryFolder {
- public:
-  TemporaryFolder();
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  ~TemporaryFolder();
-
-  std::string File(const std::string& name) const { return (path_ / name).string(); }
-  std::string Url() const { return "sqlite:" + File("homing.db"); }
-
- private:
-  std::filesystem::path path_;
-};
 
 // Runs for a store in a file and one in memory: `GetParam()` is true for the file.
 class EveryStore : public ::testing::TestWithParam<bool> {
