@@ -76,7 +76,7 @@ class Trial {
   // The server stops; nothing that was acknowledged may be missing.
   void Stop(const std::string& name) {
     figures_->AtMost(name + "_exit_code", server_.Stop(), 0);
-    const auto check = CheckDatabase(server_.Database(), ledger_.entries());
+    const auto check = CheckDatabase(server_.Url(), ledger_.entries());
     if (!check.ok()) return figures_->Failed(name, check.status().ToString());
     figures_->AtMost(name + "_acknowledged_lost", static_cast<double>(check->lost), 0);
     figures_->AtMost(name + "_stored_twice", static_cast<double>(check->twice), 0);

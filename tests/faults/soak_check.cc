@@ -191,7 +191,7 @@ void CheckSoak(const Programs& programs, double minutes, int robots, Figures* fi
   figures->AtLeast("soak_bad_clients", visits, 1);
   Report(samples, latencies, figures);
   figures->AtMost("soak_exit_code", server.Stop(), 0);
-  const auto check = CheckDatabase(server.Database(), ledger.entries());
+  const auto check = CheckDatabase(server.Url(), ledger.entries());
   if (!check.ok()) return figures->Failed("soak", check.status().ToString());
   figures->AtMost("soak_acknowledged_lost", static_cast<double>(check->lost), 0);
   figures->AtMost("soak_stored_twice", static_cast<double>(check->twice), 0);

@@ -81,9 +81,9 @@ TEST_F(StoreProcessTest, ABackupOfARunningServerIsRestored) {
   ASSERT_THAT(Record(), IsOk());
   const std::string expected = Export();
   const std::string copy = folder_.File("copy.db");
-  const Ran backup = RunServer({"backup", copy, "--database", server_.Database()});
+  const Ran backup = RunServer({"backup", copy, "--database", server_.Url()});
   EXPECT_EQ(backup.code, 0) << backup.errors;
-  EXPECT_EQ(RunServer({"backup", copy, "--database", server_.Database()}).code, 1)
+  EXPECT_EQ(RunServer({"backup", copy, "--database", server_.Url()}).code, 1)
       << "must not replace it";
   EXPECT_EQ(server_.Stop(), 0);
   // As docs/operations.md says.
@@ -123,7 +123,7 @@ TEST_F(StoreProcessTest, ReadOnlyAfterAKillIsRefusedUntilItWasStartedOnce) {
   ASSERT_THAT(Record(), IsOk());
   server_.Kill();
   const Ran refused =
-      RunServer({"--listen", "127.0.0.1:0", "--database", server_.Database(), "--readonly"});
+      RunServer({"--listen", "127.0.0.1:0", "--database", server_.Url(), "--readonly"});
   EXPECT_EQ(refused.code, 1);
   EXPECT_THAT(refused.errors, HasSubstr("not closed well"));
   Start();
@@ -150,7 +150,7 @@ TEST_F(StoreProcessTest, ADamagedFileIsToldAndSalvaged) {
   file << std::string(4096, 'x');
   file.close();
   const std::string saved = folder_.File("saved.db");
-  const Ran damaged = RunServer({"doctor", "--database", server_.Database(), "--salvage", saved});
+  const Ran damaged = RunServer({"doctor", "--database", server_.Url(), "--salvage", saved});
   EXPECT_EQ(damaged.code, 1);
   EXPECT_THAT(damaged.out, HasSubstr("DAMAGED"));
   EXPECT_THAT(damaged.out, HasSubstr("1 damaged"));
@@ -167,7 +167,7 @@ TEST_F(StoreProcessTest, WhereNothingCanBeWrittenItSaysSoAndEnds) {
     Program program({"/usr/bin/env", "LD_PRELOAD=" FAULTY_DISK,
                      "FAULTY_DISK_DIR=" + server_.folder(), "FAULTY_DISK_CONTROL=" + control_,
                      HOMING_SERVER_PROGRAM, "--listen", "127.0.0.1:0", "--database",
-                     server_.Database()});
+                     server_.Url()});
     const int code = program.Wait();
     return Ran{code, "", program.Stderr()};
   }();
