@@ -38,7 +38,7 @@ void ImportStream::Open() {
   if (entered.ok()) {
     StartRead(&request_);
   } else {
-    Finish(call_.Finish(entered));
+    FinishWith(entered);
   }
 }
 
@@ -80,7 +80,7 @@ absl::Status ImportStream::TakeChunk(const std::string& chunk) {
 void ImportStream::OnReadDone(bool ok) {
   if (!ok) {
     if (!core_->pool.TryRun([self = self_] { self->Complete(); })) {
-      Finish(call_.Finish(BusyError()));
+      FinishWith(BusyError());
     }
     return;
   }
@@ -90,7 +90,7 @@ void ImportStream::OnReadDone(bool ok) {
     request_.Clear();
     StartRead(&request_);
   } else {
-    Finish(call_.Finish(status));
+    FinishWith(status);
   }
 }
 
@@ -109,12 +109,23 @@ absl::Status ImportStream::Store() {
 }
 
 void ImportStream::Complete() {
-  Finish(call_.Finish(Guarded([this] { return Store(); })));
+  FinishWith(Guarded([this] { return Store(); }));
+}
+
+void ImportStream::FinishWith(const absl::Status& status) {
+  // Before the answer: who has it may import the next file.
+  FreeFile();
+  Finish(call_.Finish(status));
+}
+
+void ImportStream::FreeFile() {
+  file_ = {};
+  core_->import_bytes -= std::exchange(taken_, 0);
 }
 
 void ImportStream::OnDone() {
   watch_.Forget();
-  core_->import_bytes -= taken_;
+  FreeFile();
   const std::shared_ptr<ImportStream> self = std::move(self_);
   core_->streams.Remove(self);
 }

@@ -55,6 +55,8 @@ class ImportStream final : public grpc::ServerReadReactor<v1::ImportJourneyReque
   absl::Status TakeChunk(const std::string& chunk);
   absl::Status Store();
   void Complete();
+  void FinishWith(const absl::Status& status);
+  void FreeFile();
 
   ServiceCore* const core_;
   IncomingCall call_;

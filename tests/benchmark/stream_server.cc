@@ -34,7 +34,8 @@ class Homing final : public StreamServer {
 class EchoStream final
     : public server::BidiStream<v1::RecordJourneyRequest, v1::RecordJourneyResponse> {
  public:
-  explicit EchoStream(server::ServiceCore* core) : BidiStream(core) {}
+  EchoStream(server::ServiceCore* core, grpc::CallbackServerContext* context)
+      : BidiStream(core, context, server::Rpc::kRecordJourney) {}
 
  protected:
   absl::Status Handle(const v1::RecordJourneyRequest& request) override {
@@ -52,8 +53,8 @@ class EchoService final : public v1::JourneyService::CallbackService {
  public:
   explicit EchoService(server::ServiceCore* core) : core_(core) {}
   grpc::ServerBidiReactor<v1::RecordJourneyRequest, v1::RecordJourneyResponse>* RecordJourney(
-      grpc::CallbackServerContext* /*context*/) override {
-    const auto stream = std::make_shared<EchoStream>(core_);
+      grpc::CallbackServerContext* context) override {
+    const auto stream = std::make_shared<EchoStream>(core_, context);
     stream->Open();
     return stream.get();
   }
@@ -71,7 +72,8 @@ server::CoreOptions EchoOptions() {
 class Echo final : public StreamServer {
  public:
   Echo()
-      : core_(*storage::OpenJourneyStore({.url = "sqlite::memory:"}), EchoOptions()),
+      : core_(*storage::OpenJourneyStore({.url = "sqlite::memory:"}),
+              *server::AccessControl::Open({}), EchoOptions()),
         service_(&core_) {
     grpc::ServerBuilder builder;
     builder.AddListeningPort("127.0.0.1:0", grpc::InsecureServerCredentials(), &port_);
