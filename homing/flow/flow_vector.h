@@ -19,7 +19,7 @@ struct FlowVector {
   double MidY() const { return 0.5 * (double{start_y} + double{end_y}); }
   double FlowX() const { return double{end_x} - double{start_x}; }
   double FlowY() const { return double{end_y} - double{start_y}; }
-  double Length() const { return std::hypot(FlowX(), FlowY()); }
+  double Length() const { return std::sqrt(FlowX() * FlowX() + FlowY() * FlowY()); }
   friend bool operator==(const FlowVector&, const FlowVector&) = default;
 };
 

@@ -4,29 +4,28 @@
 #include <Eigen/Core>
 #include <Eigen/LU>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <utility>
 #include <vector>
 
 #include "homing/flow/median.h"
+#include "homing/vector_clones.h"
 
 namespace homing {
 namespace {
 
-constexpr int kIterations = 10;
+constexpr int kMaxIterations = 10;
+// A step this small, pixels, is the last.
+constexpr double kConvergedPx = 1e-3;
 // A vector is explained if it is this near, pixels, or this share of what the rotation says.
 constexpr double kNoisePx = 0.35;
 constexpr double kNoiseShare = 0.15;
-
-using Rows = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
-
-// Rows of design * rotation = flow, x components first, then y; all in focal lengths.
-struct System {
-  double focal = 0;
-  Rows design;
-  Eigen::VectorXd flow;
-};
+// A trace of damping keeps the few-vector case solvable.
+constexpr double kDamping = 1e-9;
+// Sums are added in so many lanes, so that they are the same on every machine.
+constexpr std::size_t kLanes = 4;
 
 Intrinsics IntrinsicsOf(const FlowField& field, const Camera& camera) {
   if (camera.intrinsics.has_value()) {
@@ -36,122 +35,193 @@ Intrinsics IntrinsicsOf(const FlowField& field, const Camera& camera) {
   return {focal, focal, 0.5 * (field.width - 1), 0.5 * (field.height - 1)};
 }
 
+// A vector's two equations, by column, all in focal lengths:
 // u = pan (1 + x^2) + tilt x y + roll y;  v = pan x y + tilt (1 + y^2) - roll x.
-System SystemOf(const FlowField& field, const Camera& camera) {
+struct System {
+  System(const FlowField& field, const Camera& camera);
+
+  double focal = 0;
+  // Vectors; the columns are longer, of whole lanes: what is more is zero.
+  std::size_t size = 0;
+  std::vector<double> x, y, u, v;
+};
+
+System::System(const FlowField& field, const Camera& camera) : size(field.vectors.size()) {
   const Intrinsics in = IntrinsicsOf(field, camera);
-  const auto n = static_cast<Eigen::Index>(field.vectors.size());
-  System system{in.focal_x, Rows(2 * n, 3), Eigen::VectorXd(2 * n)};
-  for (Eigen::Index i = 0; i < n; ++i) {
-    const FlowVector& vector = field.vectors[static_cast<std::size_t>(i)];
-    const double x = (vector.MidX() - in.center_x) / in.focal_x;
-    const double y = (vector.MidY() - in.center_y) / in.focal_y;
-    system.design.row(i) << 1 + x * x, x * y, y;
-    system.design.row(n + i) << x * y, 1 + y * y, -x;
-    system.flow[i] = vector.FlowX() / in.focal_x;
-    system.flow[n + i] = vector.FlowY() / in.focal_y;
+  focal = in.focal_x;
+  const std::size_t padded = (size + kLanes - 1) / kLanes * kLanes;
+  for (std::vector<double>* const column : {&x, &y, &u, &v}) {
+    column->resize(padded);
   }
-  return system;
+  for (std::size_t i = 0; i < size; ++i) {
+    const FlowVector& vector = field.vectors[i];
+    x[i] = (vector.MidX() - in.center_x) / in.focal_x;
+    y[i] = (vector.MidY() - in.center_y) / in.focal_y;
+    u[i] = vector.FlowX() / in.focal_x;
+    v[i] = vector.FlowY() / in.focal_y;
+  }
 }
 
-// Length of the residual of each vector, pixels.
-std::vector<double> Residuals(const System& system, const Eigen::Vector3d& rotation) {
-  const Eigen::VectorXd miss = system.focal * (system.flow - system.design * rotation);
-  const Eigen::Index n = miss.size() / 2;
-  std::vector<double> result(static_cast<std::size_t>(n));
-  for (Eigen::Index i = 0; i < n; ++i) {
-    result[static_cast<std::size_t>(i)] = std::sqrt(miss[i] * miss[i] + miss[n + i] * miss[n + i]);
+// Pan, tilt, roll; radians a step.
+using Rotation = Eigen::Vector3d;
+
+// Squares of what the rotation does not explain of each vector, in focal lengths.
+HOMING_VECTOR_CLONES
+void SquaredResiduals(const System& system, const Rotation& rotation, double* squares) {
+  const double pan = rotation[0], tilt = rotation[1], roll = rotation[2];
+  const double* const x = system.x.data();
+  const double* const y = system.y.data();
+  const double* const u = system.u.data();
+  const double* const v = system.v.data();
+  for (std::size_t i = 0; i < system.size; ++i) {
+    const double xy = x[i] * y[i];
+    const double miss_u = u[i] - (pan * (1 + x[i] * x[i]) + tilt * xy + roll * y[i]);
+    const double miss_v = v[i] - (pan * xy + tilt * (1 + y[i] * y[i]) - roll * x[i]);
+    squares[i] = miss_u * miss_u + miss_v * miss_v;
   }
-  return result;
 }
 
-// Weights that fade beyond the median residual, one a row.
-Eigen::VectorXd Weights(const std::vector<double>& residuals) {
-  const double scale = 1.5 * Median(residuals) + 1e-6;
-  const auto n = static_cast<Eigen::Index>(residuals.size());
-  Eigen::VectorXd weights(2 * n);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    const double ratio = residuals[static_cast<std::size_t>(i)] / scale;
-    weights[i] = 1 / ((1 + ratio * ratio) * (1 + ratio * ratio));
-    weights[n + i] = weights[i];
+// Weights that fade beyond 1.5 times the median residual.
+HOMING_VECTOR_CLONES
+void FadingWeights(const double* squares, std::size_t size, double scale, double* weights) {
+  const double per_square = 1 / (scale * scale);
+  for (std::size_t i = 0; i < size; ++i) {
+    const double faded = 1 + squares[i] * per_square;
+    weights[i] = 1 / (faded * faded);
   }
-  return weights;
 }
 
-// Weighted least squares. The sums are written out: products of so narrow matrices cost five times
-// as much.
-Eigen::Vector3d SolveWeighted(const System& system, const Eigen::VectorXd& weights) {
-  double aa = 0, ab = 0, ac = 0, bb = 0, bc = 0, cc = 0, af = 0, bf = 0, cf = 0;
-  for (Eigen::Index row = 0; row < weights.size(); ++row) {
-    const double a = system.design(row, 0);
-    const double b = system.design(row, 1);
-    const double c = system.design(row, 2);
-    const double weighted_a = weights[row] * a;
-    const double weighted_b = weights[row] * b;
-    const double weighted_c = weights[row] * c;
-    aa += weighted_a * a;
-    ab += weighted_a * b;
-    ac += weighted_a * c;
-    bb += weighted_b * b;
-    bc += weighted_b * c;
-    cc += weighted_c * c;
-    af += weighted_a * system.flow[row];
-    bf += weighted_b * system.flow[row];
-    cf += weighted_c * system.flow[row];
+// Of the weighted normal equations.
+enum Sum { kAA, kAB, kAC, kBB, kBC, kCC, kAF, kBF, kCF, kSums };
+
+HOMING_VECTOR_CLONES
+void AddUp(const System& system, const double* weights, double* sums) {
+  const double* const x = system.x.data();
+  const double* const y = system.y.data();
+  const double* const u = system.u.data();
+  const double* const v = system.v.data();
+  std::array<std::array<double, kLanes>, kSums> lanes{};
+  for (std::size_t i = 0; i < system.x.size(); i += kLanes) {
+    for (std::size_t lane = 0; lane < kLanes; ++lane) {
+      const double w = weights[i + lane];
+      const double px = x[i + lane], py = y[i + lane];
+      const double pu = u[i + lane], pv = v[i + lane];
+      // The two rows: (a, b, c) = (1 + x^2, x y, y), (x y, 1 + y^2, -x).
+      const double a = 1 + px * px, b = px * py, d = 1 + py * py;
+      lanes[kAA][lane] += w * (a * a + b * b);
+      lanes[kAB][lane] += w * b * (a + d);
+      lanes[kAC][lane] += w * (a * py - b * px);
+      lanes[kBB][lane] += w * (b * b + d * d);
+      lanes[kBC][lane] += w * (b * py - d * px);
+      lanes[kCC][lane] += w * (py * py + px * px);
+      lanes[kAF][lane] += w * (a * pu + b * pv);
+      lanes[kBF][lane] += w * (b * pu + d * pv);
+      lanes[kCF][lane] += w * (py * pu - px * pv);
+    }
   }
+  for (std::size_t sum = 0; sum < kSums; ++sum) {
+    sums[sum] = (lanes[sum][0] + lanes[sum][1]) + (lanes[sum][2] + lanes[sum][3]);
+  }
+}
+
+Rotation SolveWeighted(const System& system, const std::vector<double>& weights) {
+  std::array<double, kSums> s;
+  AddUp(system, weights.data(), s.data());
   Eigen::Matrix3d normal;
-  normal << aa, ab, ac, ab, bb, bc, ac, bc, cc;
-  // A trace of damping keeps the few-vector case solvable.
-  normal += 1e-9 * Eigen::Matrix3d::Identity();
-  return normal.ldlt().solve(Eigen::Vector3d(af, bf, cf));
+  normal << s[kAA], s[kAB], s[kAC], s[kAB], s[kBB], s[kBC], s[kAC], s[kBC], s[kCC];
+  normal += kDamping * Eigen::Matrix3d::Identity();
+  return normal.ldlt().solve(Eigen::Vector3d(s[kAF], s[kBF], s[kCF]));
 }
 
-Eigen::Vector3d SolveRotation(const System& system) {
-  const Eigen::Index n = system.flow.size() / 2;
-  std::vector<double> u(system.flow.data(), system.flow.data() + n);
-  std::vector<double> v(system.flow.data() + n, system.flow.data() + 2 * n);
-  Eigen::Vector3d rotation(Median(std::move(u)), Median(std::move(v)), 0);
-  for (int i = 0; i < kIterations; ++i) {
-    const Eigen::VectorXd weights = Weights(Residuals(system, rotation));
-    rotation = SolveWeighted(system, weights);
+double MedianOf(const std::vector<double>& column, std::size_t size) {
+  return Median({column.begin(), column.begin() + static_cast<std::ptrdiff_t>(size)});
+}
+
+// A rotation, what it leaves over and the weights that follow.
+struct Fit {
+  Rotation rotation;
+  std::vector<double> squares;
+  double median_square = 0;
+  std::vector<double> weights;
+};
+
+void Weigh(const System& system, Fit& fit) {
+  SquaredResiduals(system, fit.rotation, fit.squares.data());
+  fit.median_square = MedianOf(fit.squares, system.size);
+  const double scale = 1.5 * std::sqrt(fit.median_square) + 1e-6 / system.focal;
+  FadingWeights(fit.squares.data(), system.size, scale, fit.weights.data());
+}
+
+Fit SolveRobustly(const System& system) {
+  Fit fit;
+  fit.squares.resize(system.x.size());
+  fit.weights.resize(system.x.size());
+  fit.rotation = {MedianOf(system.u, system.size), MedianOf(system.v, system.size), 0};
+  Weigh(system, fit);
+  for (int i = 0; i < kMaxIterations; ++i) {
+    const Rotation before = fit.rotation;
+    fit.rotation = SolveWeighted(system, fit.weights);
+    Weigh(system, fit);
+    if ((fit.rotation - before).cwiseAbs().maxCoeff() * system.focal < kConvergedPx) {
+      break;
+    }
   }
-  return rotation;
+  return fit;
 }
 
 // Weighted least squares on the vertical components alone.
-void FitVertical(const System& system, const Eigen::VectorXd& all_weights, RotationFit& fit) {
-  const Eigen::Index n = system.flow.size() / 2;
-  const Rows design = system.design.bottomRows(n);
-  const Eigen::VectorXd flow = system.flow.tail(n);
-  const Eigen::VectorXd weights = all_weights.tail(n);
-  const Eigen::Matrix3d normal =
-      design.transpose() * weights.asDiagonal() * design + 1e-9 * Eigen::Matrix3d::Identity();
+void FitVertical(const System& system, const std::vector<double>& weights, RotationFit& fit) {
+  Eigen::Matrix3d normal = kDamping * Eigen::Matrix3d::Identity();
+  Eigen::Vector3d right = Eigen::Vector3d::Zero();
+  double squares = 0;
+  double sum = 0;
+  for (std::size_t i = 0; i < system.size; ++i) {
+    const Eigen::Vector3d row(system.x[i] * system.y[i], 1 + system.y[i] * system.y[i],
+                              -system.x[i]);
+    const Eigen::Vector3d weighted = weights[i] * row;
+    normal += weighted * row.transpose();
+    right += weighted * system.v[i];
+    squares += weights[i] * system.v[i] * system.v[i];
+    sum += weights[i];
+  }
   const Eigen::Matrix3d inverse = normal.inverse();
-  const Eigen::Vector3d rotation = inverse * (design.transpose() * (weights.asDiagonal() * flow));
-  const Eigen::VectorXd miss = flow - design * rotation;
-  const double variance = miss.dot(weights.asDiagonal() * miss) / weights.sum();
+  const Eigen::Vector3d rotation = inverse * right;
+  // Of the weighted squares, what the rotation does not explain.
+  const double left_over = std::max(0.0, squares - rotation.dot(right));
   fit.vertical_pan = rotation[0];
-  fit.vertical_pan_error = std::sqrt(variance * inverse(0, 0));
+  fit.vertical_pan_error = std::sqrt(left_over / sum * inverse(0, 0));
+}
+
+std::size_t CountExplained(const System& system, const Fit& fit) {
+  const auto [pan, tilt, roll] = std::array{fit.rotation[0], fit.rotation[1], fit.rotation[2]};
+  const double noise = kNoisePx / system.focal;
+  std::size_t explained = 0;
+  for (std::size_t i = 0; i < system.size; ++i) {
+    const double x = system.x[i], y = system.y[i];
+    const double u = pan * (1 + x * x) + tilt * x * y + roll * y;
+    const double v = pan * x * y + tilt * (1 + y * y) - roll * x;
+    const double near = std::max(noise * noise, kNoiseShare * kNoiseShare * (u * u + v * v));
+    explained += fit.squares[i] <= near ? 1U : 0U;
+  }
+  return explained;
 }
 
 }  // namespace
 
 RotationFit FitRotation(const FlowField& field, const Camera& camera) {
-  const System system = SystemOf(field, camera);
-  const Eigen::Vector3d rotation = SolveRotation(system);
-  const std::vector<double> residuals = Residuals(system, rotation);
-  const std::vector<double> predicted =
-      Residuals({system.focal, system.design, Eigen::VectorXd::Zero(system.flow.size())}, rotation);
+  const System system(field, camera);
+  const Fit solved = SolveRobustly(system);
   RotationFit fit;
-  fit.pan = rotation[0];
-  FitVertical(system, Weights(residuals), fit);
-  std::size_t explained = 0;
+  fit.pan = solved.rotation[0];
+  FitVertical(system, solved.weights, fit);
+  fit.explained =
+      static_cast<double>(CountExplained(system, solved)) / static_cast<double>(system.size);
+  fit.median_residual = system.focal * std::sqrt(solved.median_square);
   std::vector<double> lengths;
-  for (std::size_t i = 0; i < residuals.size(); ++i) {
-    explained += residuals[i] <= std::max(kNoisePx, kNoiseShare * predicted[i]) ? 1U : 0U;
-    lengths.push_back(field.vectors[i].Length());
+  lengths.reserve(system.size);
+  for (const FlowVector& vector : field.vectors) {
+    lengths.push_back(vector.Length());
   }
-  fit.explained = static_cast<double>(explained) / static_cast<double>(residuals.size());
-  fit.median_residual = Median(residuals);
   fit.median_length = Median(std::move(lengths));
   return fit;
 }

@@ -109,12 +109,19 @@ constexpr std::array<std::pair<const char*, const char*>, 8> kChanges = {{
     {"stop", ",stop=5"},
 }};
 
-// Two of the changes, others for each seed. Where both set the offset, the greater counts.
+bool Sets(const std::string& keys, const std::string& key) {
+  return keys.find("," + key + "=") != std::string::npos;
+}
+
+// Two of the changes, others for each seed. Where both set the offset, the greater counts; no light
+// is both dark and bright.
 std::string TwoChanges(int seed) {
   std::vector<std::string> pairs;
   for (std::size_t i = 0; i < kChanges.size(); ++i) {
     for (std::size_t j = i + 1; j < kChanges.size(); ++j) {
-      pairs.push_back(std::string(kChanges[i].second) + kChanges[j].second);
+      const bool two_lights =
+          Sets(kChanges[i].second, "light") && Sets(kChanges[j].second, "light");
+      pairs.push_back(std::string(kChanges[i].second) + kChanges[two_lights ? j + 1 : j].second);
     }
   }
   std::string both = pairs[static_cast<std::size_t>(seed) * 11 % pairs.size()];

@@ -146,6 +146,19 @@ void FlowOverGrpc(benchmark::State& state) {
   RunStreams(state, server.get(), FlowRequests(), true);
 }
 
+// What one observation costs before it is sent anywhere, one thread.
+void FlowWithoutNetwork(benchmark::State& state) {
+  std::vector<Observation> observations;
+  for (int i = 0; i < kFlows; ++i) observations.push_back(FlowObservation(i, kVectors));
+  JourneyRecorder recorder{JourneySettings()};
+  std::int64_t sequence = 0;
+  for (auto _ : state) {
+    Observation& next = observations[static_cast<std::size_t>(sequence % kFlows)];
+    next.sequence = sequence++;
+    benchmark::DoNotOptimize(recorder.Record(next));
+  }
+}
+
 void FlowEcho(benchmark::State& state) {
   const auto server = StartEchoServer();
   RunStreams(state, server.get(), FlowRequests(), false);
@@ -160,6 +173,7 @@ void RegisterStreamBenchmarks(bool /*quick*/) {
         ->Iterations(1)
         ->Unit(benchmark::kMillisecond);
   };
+  benchmark::RegisterBenchmark("flow_alone", FlowWithoutNetwork)->Unit(benchmark::kMicrosecond);
   add("frames_grpc", FramesOverGrpc);
   add("frames_pool", FramesWithoutNetwork);
   add("flow_grpc", FlowOverGrpc);
