@@ -23,7 +23,7 @@ struct RecordingOptions {
   // Survives restarts of this program.
   std::string writer_id;
   // Most observations sent and not yet acknowledged. [1, 10000].
-  int window = 32;
+  int window = 256;
   // Acknowledged observations kept for a resend. [0, 10000].
   int keep = 8;
 };

@@ -151,8 +151,9 @@ class BidiStream : public grpc::ServerBidiReactor<Request, Response>,
   IncomingCall& call() { return call_; }
 
  private:
-  static constexpr std::size_t kReadAhead = 8;
-  static constexpr std::size_t kReadAheadBytes = 8 << 20;
+  // Enough that a commit's time is shared by many observations; of frames, bytes come first.
+  static constexpr std::size_t kReadAhead = 256;
+  static constexpr std::size_t kReadAheadBytes = 4 << 20;
 
   void HandleGuarded(const Request& request) {
     {
@@ -182,7 +183,12 @@ class BidiStream : public grpc::ServerBidiReactor<Request, Response>,
   void WriteNext() {
     if (!writing_ && !writes_.empty() && !finished_) {
       writing_ = true;
-      this->StartWrite(&writes_.front());
+      // Answers that wait leave together: a commit makes many.
+      grpc::WriteOptions options;
+      if (writes_.size() > 1) {
+        options.set_buffer_hint();
+      }
+      this->StartWrite(&writes_.front(), options);
     }
   }
 

@@ -48,7 +48,7 @@ void CommitQueue::State::Run() {
   while (TakeBatch(batch, done)) {
     const std::vector<absl::Status> statuses = store->AppendSteps(batch);
     for (std::size_t i = 0; i < done.size(); ++i) {
-      done[i](statuses[i]);
+      done[i](std::move(batch[i]), statuses[i]);
       // What the callback holds must not live until the next batch.
       done[i] = nullptr;
     }

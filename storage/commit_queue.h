@@ -11,7 +11,7 @@ namespace homing::storage {
 
 struct CommitQueueOptions {
   // Most appends waiting; Submit blocks no one: it refuses above this. [1, 1'000'000].
-  int max_pending = 4096;
+  int max_pending = 32768;
   // Most appends in one transaction.
   int max_batch = 1024;
 };
@@ -19,15 +19,15 @@ struct CommitQueueOptions {
 // One thread commits all that waits, in order of submission, then calls back. Thread-safe.
 class CommitQueue {
  public:
-  // Called on the commit thread after the transaction ended.
-  using Done = std::function<void(absl::Status)>;
+  // Called on the commit thread after the transaction ended, with what was to be appended.
+  using Done = std::function<void(JourneyAppend, absl::Status)>;
 
   // `store` must outlive the queue.
   explicit CommitQueue(JourneyStore* store, const CommitQueueOptions& options = {});
   // Commits all that waits, then stops.
   ~CommitQueue();
 
-  // RESOURCE_EXHAUSTED when full (`done` is then not called).
+  // RESOURCE_EXHAUSTED when full (`done` is then not called, and `append` is lost).
   absl::Status Submit(JourneyAppend append, Done done);
   // Appends that wait for their transaction to begin.
   std::size_t waiting() const;

@@ -21,9 +21,6 @@ constexpr char kSelectFingerprints[] =
 constexpr char kSelectProfiles[] =
     "SELECT profile_id, cells FROM profiles WHERE profile_id >= ? AND profile_id < ?"
     " ORDER BY profile_id";
-constexpr char kInsertLandmark[] =
-    "INSERT INTO landmarks (journey_id, landmark, side, first_step, last_step, fingerprint_count,"
-    " spread) VALUES (?,?,?,?,?,?,?)";
 constexpr char kInsertFingerprint[] =
     "INSERT INTO fingerprints (fingerprint_id, landmark, x, y, count) VALUES (?,?,?,?,?)";
 
@@ -137,10 +134,7 @@ absl::StatusOr<JourneyMap> ReadMap(Connection& connection, const JourneyRow& jou
 void WriteMap(Connection& connection, std::int64_t journey_id, const JourneyMap& map) {
   int number = 0;
   for (const Landmark& landmark : map.landmarks()) {
-    connection
-        .Prepare(kInsertLandmark, journey_id, number++, Word(landmark.side), landmark.first_step,
-                 landmark.last_step, landmark.fingerprint_count, landmark.spread)
-        .Run();
+    InsertLandmark(connection, journey_id, number++, landmark);
   }
   for (std::int64_t step = 0; step < map.step_count(); ++step) {
     int index = 0;

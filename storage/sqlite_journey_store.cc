@@ -101,7 +101,9 @@ std::vector<absl::Status> SqliteJourneyStore::AppendSteps(
   std::vector<absl::Status> statuses;
   statuses.reserve(appends.size());
   const absl::Status transaction = Write([&](Connection& connection) {
-    for (const JourneyAppend& append : appends) statuses.push_back(AppendStep(connection, append));
+    StepAppends batch(&connection);
+    for (const JourneyAppend& append : appends) statuses.push_back(batch.Append(append));
+    batch.Write();
     return absl::OkStatus();
   });
   if (!transaction.ok()) statuses.assign(appends.size(), transaction);

@@ -18,71 +18,29 @@ namespace {
 constexpr char kFind[] =
     "SELECT journey_id, state, input, next_sequence, step_count, landmark_count FROM journeys"
     " WHERE name = ?";
-constexpr char kFindSide[] = "SELECT side FROM landmarks WHERE journey_id = ? AND landmark = ?";
+constexpr char kFindLandmark[] =
+    "SELECT side, first_step, last_step, fingerprint_count, spread FROM landmarks"
+    " WHERE journey_id = ? AND landmark = ?";
 constexpr char kUpdate[] =
     "UPDATE journeys SET next_sequence = ?2, input = ?3,"
     " start_time_ns = CASE start_time_ns WHEN 0 THEN ?4 ELSE start_time_ns END,"
-    " end_time_ns = CASE ?4 WHEN 0 THEN end_time_ns ELSE ?4 END,"
-    " step_count = ?5, landmark_count = ?6, fingerprint_count = fingerprint_count + ?7"
+    " end_time_ns = CASE ?5 WHEN 0 THEN end_time_ns ELSE ?5 END,"
+    " step_count = ?6, landmark_count = ?7, fingerprint_count = fingerprint_count + ?8"
     " WHERE journey_id = ?1";
 constexpr char kSetSettings[] = "UPDATE journeys SET settings = ? WHERE journey_id = ?";
 constexpr char kInsertFingerprint[] =
     "INSERT INTO fingerprints (fingerprint_id, landmark, x, y, count) VALUES (?,?,?,?,?)";
 constexpr char kInsertLandmark[] =
     "INSERT INTO landmarks (journey_id, landmark, side, first_step, last_step, fingerprint_count,"
-    " spread) VALUES (?,?,?,?,?,1,?)";
+    " spread) VALUES (?,?,?,?,?,?,?)";
 constexpr char kInsertProfile[] = "INSERT INTO profiles (profile_id, cells) VALUES (?,?)";
-// The running mean: new = old + (s - old) / n, in double.
 constexpr char kUpdateLandmark[] =
-    "UPDATE landmarks SET last_step = ?3, fingerprint_count = fingerprint_count + 1,"
-    " spread = spread + (?4 - spread) / (fingerprint_count + 1)"
+    "UPDATE landmarks SET last_step = ?3, fingerprint_count = ?4, spread = ?5"
     " WHERE journey_id = ?1 AND landmark = ?2";
 
 // Two a camera (paper III).
 constexpr int kMaxFingerprintsPerSide = 2;
 constexpr double kMaxSpread = 1e9;
-
-// The journey as far as appending needs it.
-struct Target {
-  std::int64_t id = 0;
-  JourneyState state = JourneyState::kActive;
-  InputKind input = InputKind::kUnknown;
-  std::int64_t next_sequence = 0;
-  std::int64_t step_count = 0;
-  std::int32_t landmark_count = 0;
-};
-
-absl::StatusOr<Target> FindTarget(Connection& connection, const std::string& name) {
-  Query query = connection.Prepare(kFind, name);
-  if (!query.Next()) return JourneyNotFound(name);
-  Target target;
-  target.id = query.Integer(0);
-  HOMING_ASSIGN_OR_RETURN(target.state, StateOfWord(query.Text(1)));
-  HOMING_ASSIGN_OR_RETURN(target.input, InputOfWord(query.Text(2)));
-  target.next_sequence = query.Integer(3);
-  target.step_count = query.Integer(4);
-  target.landmark_count = static_cast<std::int32_t>(query.Integer(5));
-  return target;
-}
-
-absl::Status CheckContinues(const Target& target, const JourneyAppend& append) {
-  if (target.state != JourneyState::kActive) {
-    return absl::FailedPreconditionError(
-        absl::StrCat("journey '", append.journey, "' is finished"));
-  }
-  if (append.sequence != target.next_sequence) {
-    return absl::OutOfRangeError(absl::StrCat("sequence is ", append.sequence, ": ",
-                                              target.next_sequence, " is due in journey '",
-                                              append.journey, "'"));
-  }
-  if (target.input != InputKind::kUnknown && append.input != InputKind::kUnknown &&
-      target.input != append.input) {
-    return absl::FailedPreconditionError(absl::StrCat("input is ", Word(append.input),
-                                                      ": journey '", append.journey,
-                                                      "' is recorded from ", Word(target.input)));
-  }
-  return absl::OkStatus();
-}
 
 absl::Status CheckValues(const RecordedFingerprint& recorded) {
   const Fingerprint& fingerprint = recorded.fingerprint;
@@ -122,64 +80,6 @@ absl::Status CheckOrder(const JourneyStep& step) {
   return absl::OkStatus();
 }
 
-// Landmarks must be known with that side, or come next in number; each once.
-absl::Status CheckLandmark(Connection& connection, const Target& target,
-                           const RecordedFingerprint& recorded, std::set<std::int32_t>& seen) {
-  const std::int32_t landmark = recorded.fingerprint.landmark;
-  const auto first_new = seen.lower_bound(target.landmark_count);
-  const std::int64_t due = target.landmark_count + std::distance(first_new, seen.end());
-  if (landmark < 0 || landmark > due || !seen.insert(landmark).second) {
-    return absl::InvalidArgumentError(
-        absl::StrCat("landmark is ", landmark, ": must be once in a step, and 0 to ", due));
-  }
-  if (landmark >= target.landmark_count) return absl::OkStatus();
-  Query query = connection.Prepare(kFindSide, target.id, landmark);
-  if (!query.Next()) {
-    return absl::DataLossError(absl::StrCat("store: landmark ", landmark, " has no row"));
-  }
-  if (query.Text(0) != Word(recorded.side)) {
-    return absl::InvalidArgumentError(absl::StrCat("side of landmark ", landmark, " is ",
-                                                   Word(recorded.side), ": it was met on the ",
-                                                   query.Text(0)));
-  }
-  return absl::OkStatus();
-}
-
-absl::Status CheckStep(Connection& connection, const Target& target, const JourneyStep& step,
-                       std::int64_t sequence) {
-  const std::int64_t last = std::min(sequence, kMostSteps - 1);
-  if (step.step < target.step_count || step.step > last) {
-    return absl::InvalidArgumentError(
-        absl::StrCat("step is ", step.step, ": must be ", target.step_count, " to ", last));
-  }
-  HOMING_RETURN_IF_ERROR(CheckOrder(step));
-  std::set<std::int32_t> seen;
-  for (const RecordedFingerprint& recorded : step.fingerprints) {
-    HOMING_RETURN_IF_ERROR(CheckValues(recorded));
-    HOMING_RETURN_IF_ERROR(CheckLandmark(connection, target, recorded, seen));
-  }
-  return absl::OkStatus();
-}
-
-void WriteFingerprint(Connection& connection, Target& target, std::int64_t step, int index,
-                      const RecordedFingerprint& recorded) {
-  const Fingerprint& fingerprint = recorded.fingerprint;
-  connection
-      .Prepare(kInsertFingerprint, FingerprintId(target.id, step, index), fingerprint.landmark,
-               double{fingerprint.x}, double{fingerprint.y}, fingerprint.count)
-      .Run();
-  if (fingerprint.landmark == target.landmark_count) {
-    connection
-        .Prepare(kInsertLandmark, target.id, fingerprint.landmark, Word(recorded.side), step, step,
-                 recorded.spread)
-        .Run();
-    ++target.landmark_count;
-  } else {
-    connection.Prepare(kUpdateLandmark, target.id, fingerprint.landmark, step, recorded.spread)
-        .Run();
-  }
-}
-
 void WriteProfiles(Connection& connection, std::int64_t journey_id, const JourneyStep& step) {
   for (std::size_t side = 0; side < step.profiles.size(); ++side) {
     if (step.profiles[side]) {
@@ -190,6 +90,14 @@ void WriteProfiles(Connection& connection, std::int64_t journey_id, const Journe
 }
 
 }  // namespace
+
+void InsertLandmark(Connection& connection, std::int64_t journey_id, std::int32_t number,
+                    const Landmark& landmark) {
+  connection
+      .Prepare(kInsertLandmark, journey_id, number, Word(landmark.side), landmark.first_step,
+               landmark.last_step, landmark.fingerprint_count, landmark.spread)
+      .Run();
+}
 
 void WriteProfile(Connection& connection, std::int64_t journey_id, std::int64_t step, Side side,
                   const FlowProfile& profile) {
@@ -202,29 +110,167 @@ void WriteProfile(Connection& connection, std::int64_t journey_id, std::int64_t 
   }
 }
 
-absl::Status AppendStep(Connection& connection, const JourneyAppend& append) {
-  HOMING_ASSIGN_OR_RETURN(Target target, FindTarget(connection, append.journey));
-  HOMING_RETURN_IF_ERROR(CheckContinues(target, append));
-  int index = 0;
-  if (append.step) {
-    HOMING_RETURN_IF_ERROR(CheckStep(connection, target, *append.step, append.sequence));
-    for (const RecordedFingerprint& recorded : append.step->fingerprints) {
-      WriteFingerprint(connection, target, append.step->step, index++, recorded);
-    }
-    WriteProfiles(connection, target.id, *append.step);
-    target.step_count = append.step->step + 1;
+absl::StatusOr<StepAppends::JourneyColumns*> StepAppends::Find(const std::string& name) {
+  if (const auto known = journeys_.find(name); known != journeys_.end()) return &known->second;
+  Query query = connection_->Prepare(kFind, name);
+  if (!query.Next()) return JourneyNotFound(name);
+  JourneyColumns journey;
+  journey.id = query.Integer(0);
+  HOMING_ASSIGN_OR_RETURN(journey.state, StateOfWord(query.Text(1)));
+  HOMING_ASSIGN_OR_RETURN(journey.input, InputOfWord(query.Text(2)));
+  journey.next_sequence = query.Integer(3);
+  journey.step_count = query.Integer(4);
+  journey.landmark_count = static_cast<std::int32_t>(query.Integer(5));
+  return &journeys_.emplace(name, std::move(journey)).first->second;
+}
+
+absl::StatusOr<StepAppends::LandmarkRow*> StepAppends::FindLandmark(JourneyColumns& journey,
+                                                                    std::int32_t landmark) {
+  const auto known = journey.landmarks.find(landmark);
+  if (known != journey.landmarks.end()) return &known->second;
+  Query query = connection_->Prepare(kFindLandmark, journey.id, landmark);
+  if (!query.Next()) return nullptr;
+  LandmarkRow row;
+  HOMING_ASSIGN_OR_RETURN(row.landmark.side, SideOfWord(query.Text(0)));
+  row.landmark.first_step = query.Integer(1);
+  row.landmark.last_step = query.Integer(2);
+  row.landmark.fingerprint_count = static_cast<std::int32_t>(query.Integer(3));
+  row.landmark.spread = query.Real(4);
+  return &journey.landmarks.emplace(landmark, row).first->second;
+}
+
+absl::Status StepAppends::CheckContinues(const JourneyColumns& journey,
+                                         const JourneyAppend& append) {
+  if (journey.state != JourneyState::kActive) {
+    return absl::FailedPreconditionError(
+        absl::StrCat("journey '", append.journey, "' is finished"));
   }
-  // An observation without a step has no say: frames and the flow between them then agree.
-  const std::int64_t step_time_ns = append.step ? append.capture_time_ns : 0;
-  const InputKind input = append.input == InputKind::kUnknown ? target.input : append.input;
-  connection
-      .Prepare(kUpdate, target.id, append.sequence + 1, Word(input), step_time_ns,
-               target.step_count, target.landmark_count, index)
-      .Run();
-  if (append.settings) {
-    connection.Prepare(kSetSettings, ToJson(*append.settings), target.id).Run();
+  if (append.sequence != journey.next_sequence) {
+    return absl::OutOfRangeError(absl::StrCat("sequence is ", append.sequence, ": ",
+                                              journey.next_sequence, " is due in journey '",
+                                              append.journey, "'"));
+  }
+  if (journey.input != InputKind::kUnknown && append.input != InputKind::kUnknown &&
+      journey.input != append.input) {
+    return absl::FailedPreconditionError(absl::StrCat("input is ", Word(append.input),
+                                                      ": journey '", append.journey,
+                                                      "' is recorded from ", Word(journey.input)));
   }
   return absl::OkStatus();
+}
+
+// Landmarks must be known with that side, or come next in number; each once.
+absl::Status StepAppends::CheckLandmark(JourneyColumns& journey,
+                                        const RecordedFingerprint& recorded,
+                                        std::set<std::int32_t>& seen) {
+  const std::int32_t landmark = recorded.fingerprint.landmark;
+  const auto first_new = seen.lower_bound(journey.landmark_count);
+  const std::int64_t due = journey.landmark_count + std::distance(first_new, seen.end());
+  if (landmark < 0 || landmark > due || !seen.insert(landmark).second) {
+    return absl::InvalidArgumentError(
+        absl::StrCat("landmark is ", landmark, ": must be once in a step, and 0 to ", due));
+  }
+  if (landmark >= journey.landmark_count) return absl::OkStatus();
+  HOMING_ASSIGN_OR_RETURN(const LandmarkRow* const row, FindLandmark(journey, landmark));
+  if (row == nullptr) {
+    return absl::DataLossError(absl::StrCat("store: landmark ", landmark, " has no row"));
+  }
+  if (row->landmark.side != recorded.side) {
+    return absl::InvalidArgumentError(absl::StrCat("side of landmark ", landmark, " is ",
+                                                   Word(recorded.side), ": it was met on the ",
+                                                   Word(row->landmark.side)));
+  }
+  return absl::OkStatus();
+}
+
+absl::Status StepAppends::CheckStep(JourneyColumns& journey, const JourneyStep& step,
+                                    std::int64_t sequence) {
+  const std::int64_t last = std::min(sequence, kMostSteps - 1);
+  if (step.step < journey.step_count || step.step > last) {
+    return absl::InvalidArgumentError(
+        absl::StrCat("step is ", step.step, ": must be ", journey.step_count, " to ", last));
+  }
+  HOMING_RETURN_IF_ERROR(CheckOrder(step));
+  std::set<std::int32_t> seen;
+  for (const RecordedFingerprint& recorded : step.fingerprints) {
+    HOMING_RETURN_IF_ERROR(CheckValues(recorded));
+    HOMING_RETURN_IF_ERROR(CheckLandmark(journey, recorded, seen));
+  }
+  return absl::OkStatus();
+}
+
+void StepAppends::AddFingerprint(JourneyColumns& journey, std::int64_t step, int index,
+                                 const RecordedFingerprint& recorded) {
+  const Fingerprint& fingerprint = recorded.fingerprint;
+  connection_
+      ->Prepare(kInsertFingerprint, FingerprintId(journey.id, step, index), fingerprint.landmark,
+                double{fingerprint.x}, double{fingerprint.y}, fingerprint.count)
+      .Run();
+  LandmarkRow& row = journey.landmarks[fingerprint.landmark];
+  Landmark& landmark = row.landmark;
+  if (fingerprint.landmark == journey.landmark_count) {
+    landmark.side = recorded.side;
+    landmark.first_step = step;
+    row.is_new = true;
+    ++journey.landmark_count;
+  }
+  landmark.last_step = step;
+  ++landmark.fingerprint_count;
+  // The running mean: new = old + (s - old) / n.
+  landmark.spread += (recorded.spread - landmark.spread) / landmark.fingerprint_count;
+  row.is_changed = true;
+}
+
+absl::Status StepAppends::Append(const JourneyAppend& append) {
+  HOMING_ASSIGN_OR_RETURN(JourneyColumns* const journey, Find(append.journey));
+  HOMING_RETURN_IF_ERROR(CheckContinues(*journey, append));
+  if (append.step) {
+    HOMING_RETURN_IF_ERROR(CheckStep(*journey, *append.step, append.sequence));
+    int index = 0;
+    for (const RecordedFingerprint& recorded : append.step->fingerprints) {
+      AddFingerprint(*journey, append.step->step, index++, recorded);
+    }
+    WriteProfiles(*connection_, journey->id, *append.step);
+    journey->step_count = append.step->step + 1;
+    journey->new_fingerprints += index;
+    // An observation without a step has no say: frames and the flow between them then agree.
+    if (append.capture_time_ns != 0) {
+      journey->last_time_ns = append.capture_time_ns;
+      if (journey->first_time_ns == 0) journey->first_time_ns = append.capture_time_ns;
+    }
+  }
+  if (append.input != InputKind::kUnknown) journey->input = append.input;
+  if (append.settings) journey->new_settings = append.settings;
+  journey->next_sequence = append.sequence + 1;
+  journey->is_changed = true;
+  return absl::OkStatus();
+}
+
+void StepAppends::Write() {
+  for (const auto& [name, journey] : journeys_) {
+    if (journey.is_changed) WriteJourney(journey);
+  }
+}
+
+void StepAppends::WriteJourney(const JourneyColumns& journey) {
+  for (const auto& [number, row] : journey.landmarks) {
+    if (row.is_new) {
+      InsertLandmark(*connection_, journey.id, number, row.landmark);
+    } else if (row.is_changed) {
+      connection_
+          ->Prepare(kUpdateLandmark, journey.id, number, row.landmark.last_step,
+                    row.landmark.fingerprint_count, row.landmark.spread)
+          .Run();
+    }
+  }
+  connection_
+      ->Prepare(kUpdate, journey.id, journey.next_sequence, Word(journey.input),
+                journey.first_time_ns, journey.last_time_ns, journey.step_count,
+                journey.landmark_count, journey.new_fingerprints)
+      .Run();
+  if (journey.new_settings) {
+    connection_->Prepare(kSetSettings, ToJson(*journey.new_settings), journey.id).Run();
+  }
 }
 
 }  // namespace homing::storage

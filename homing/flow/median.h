@@ -2,21 +2,13 @@
 #ifndef HOMING_FLOW_MEDIAN_H_
 #define HOMING_FLOW_MEDIAN_H_
 
-#include <algorithm>
-#include <cstddef>
-#include <vector>
+#include <span>
 
 namespace homing {
 
-// The upper one of two middle values; 0 of none.
-inline double Median(std::vector<double> values) {
-  if (values.empty()) {
-    return 0;
-  }
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
+// The upper one of two middle values; 0 of none. No value is NaN. Costs the same whatever the
+// order of the values: a selection that swaps them waits for its branches, ten times as long.
+float Median(std::span<const float> values);
 
 }  // namespace homing
 

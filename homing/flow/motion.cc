@@ -1,10 +1,8 @@
 #include "homing/flow/motion.h"
 
 #include <cmath>
-#include <utility>
 #include <vector>
 
-#include "homing/flow/median.h"
 #include "homing/flow/rotation_fit.h"
 
 namespace homing {
@@ -22,14 +20,6 @@ constexpr double kMaxResidualRatio = 0.25;
 constexpr double kMaxPanRatio = 2;
 // Standard errors that tell a vertical pan from none.
 constexpr double kMinSignificance = 4;
-
-bool IsStanding(const FlowField& field) {
-  std::vector<double> lengths;
-  for (const FlowVector& v : field.vectors) {
-    lengths.push_back(v.Length());
-  }
-  return Median(std::move(lengths)) < kStandingShare * field.width;
-}
 
 bool IsExplained(const RotationFit& fit) {
   return fit.explained >= kMinExplained &&
@@ -64,8 +54,8 @@ Motion ClassifyMotion(const ObservedFlow& flow, const std::array<Camera, 2>& cam
     if (!field.has_value() || field->vectors.size() < kMinVectors) {
       continue;
     }
-    standing = standing && IsStanding(*field);
-    fits.push_back(FitRotation(*field, cameras[side]));
+    const RotationFit& fit = fits.emplace_back(FitRotation(*field, cameras[side]));
+    standing = standing && fit.median_length < kStandingShare * field->width;
   }
   if (fits.empty()) {
     return Motion::kMoving;

@@ -7,7 +7,6 @@
 #include <array>
 #include <cmath>
 #include <numbers>
-#include <utility>
 #include <vector>
 
 #include "homing/flow/median.h"
@@ -44,6 +43,8 @@ struct System {
   // Vectors; the columns are longer, of whole lanes: what is more is zero.
   std::size_t size = 0;
   std::vector<double> x, y, u, v;
+  double median_u = 0;
+  double median_v = 0;
 };
 
 System::System(const FlowField& field, const Camera& camera) : size(field.vectors.size()) {
@@ -53,13 +54,19 @@ System::System(const FlowField& field, const Camera& camera) : size(field.vector
   for (std::vector<double>* const column : {&x, &y, &u, &v}) {
     column->resize(padded);
   }
+  std::vector<float> all_u(size);
+  std::vector<float> all_v(size);
   for (std::size_t i = 0; i < size; ++i) {
     const FlowVector& vector = field.vectors[i];
     x[i] = (vector.MidX() - in.center_x) / in.focal_x;
     y[i] = (vector.MidY() - in.center_y) / in.focal_y;
     u[i] = vector.FlowX() / in.focal_x;
     v[i] = vector.FlowY() / in.focal_y;
+    all_u[i] = static_cast<float>(u[i]);
+    all_v[i] = static_cast<float>(v[i]);
   }
+  median_u = Median(all_u);
+  median_v = Median(all_v);
 }
 
 // Pan, tilt, roll; radians a step.
@@ -67,7 +74,7 @@ using Rotation = Eigen::Vector3d;
 
 // Squares of what the rotation does not explain of each vector, in focal lengths.
 HOMING_VECTOR_CLONES
-void SquaredResiduals(const System& system, const Rotation& rotation, double* squares) {
+void SquaredResiduals(const System& system, const Rotation& rotation, float* squares) {
   const double pan = rotation[0], tilt = rotation[1], roll = rotation[2];
   const double* const x = system.x.data();
   const double* const y = system.y.data();
@@ -77,13 +84,13 @@ void SquaredResiduals(const System& system, const Rotation& rotation, double* sq
     const double xy = x[i] * y[i];
     const double miss_u = u[i] - (pan * (1 + x[i] * x[i]) + tilt * xy + roll * y[i]);
     const double miss_v = v[i] - (pan * xy + tilt * (1 + y[i] * y[i]) - roll * x[i]);
-    squares[i] = miss_u * miss_u + miss_v * miss_v;
+    squares[i] = static_cast<float>(miss_u * miss_u + miss_v * miss_v);
   }
 }
 
 // Weights that fade beyond 1.5 times the median residual.
 HOMING_VECTOR_CLONES
-void FadingWeights(const double* squares, std::size_t size, double scale, double* weights) {
+void FadingWeights(const float* squares, std::size_t size, double scale, double* weights) {
   const double per_square = 1 / (scale * scale);
   for (std::size_t i = 0; i < size; ++i) {
     const double faded = 1 + squares[i] * per_square;
@@ -133,30 +140,28 @@ Rotation SolveWeighted(const System& system, const std::vector<double>& weights)
   return normal.ldlt().solve(Eigen::Vector3d(s[kAF], s[kBF], s[kCF]));
 }
 
-double MedianOf(const std::vector<double>& column, std::size_t size) {
-  return Median({column.begin(), column.begin() + static_cast<std::ptrdiff_t>(size)});
-}
-
 // A rotation, what it leaves over and the weights that follow.
 struct Fit {
   Rotation rotation;
-  std::vector<double> squares;
+  // One a vector.
+  std::vector<float> squares;
   double median_square = 0;
   std::vector<double> weights;
 };
 
 void Weigh(const System& system, Fit& fit) {
   SquaredResiduals(system, fit.rotation, fit.squares.data());
-  fit.median_square = MedianOf(fit.squares, system.size);
+  fit.median_square = Median(fit.squares);
   const double scale = 1.5 * std::sqrt(fit.median_square) + 1e-6 / system.focal;
   FadingWeights(fit.squares.data(), system.size, scale, fit.weights.data());
 }
 
 Fit SolveRobustly(const System& system) {
   Fit fit;
-  fit.squares.resize(system.x.size());
+  fit.squares.resize(system.size);
+  // As long as the columns.
   fit.weights.resize(system.x.size());
-  fit.rotation = {MedianOf(system.u, system.size), MedianOf(system.v, system.size), 0};
+  fit.rotation = {system.median_u, system.median_v, 0};
   Weigh(system, fit);
   for (int i = 0; i < kMaxIterations; ++i) {
     const Rotation before = fit.rotation;
@@ -217,12 +222,12 @@ RotationFit FitRotation(const FlowField& field, const Camera& camera) {
   fit.explained =
       static_cast<double>(CountExplained(system, solved)) / static_cast<double>(system.size);
   fit.median_residual = system.focal * std::sqrt(solved.median_square);
-  std::vector<double> lengths;
+  std::vector<float> lengths;
   lengths.reserve(system.size);
   for (const FlowVector& vector : field.vectors) {
-    lengths.push_back(vector.Length());
+    lengths.push_back(static_cast<float>(vector.Length()));
   }
-  fit.median_length = Median(std::move(lengths));
+  fit.median_length = Median(lengths);
   return fit;
 }
 

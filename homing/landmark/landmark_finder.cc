@@ -77,25 +77,35 @@ std::optional<double> ValleyOf(const std::vector<int>& histogram, int width,
   return middle * width / static_cast<double>(histogram.size());
 }
 
-SeenLandmark MeanOf(const std::vector<FlowVector>& vectors) {
-  const auto n = static_cast<double>(vectors.size());
+// The vectors assigned to `landmark`.
+SeenLandmark MeanOf(const FlowField& field, const LandmarkSplit& split, int landmark) {
   double x = 0;
   double y = 0;
+  double flow_x = 0;
+  double flow_y = 0;
   double length = 0;
   double square = 0;
   SeenLandmark seen;
-  for (const FlowVector& v : vectors) {
+  for (std::size_t i = 0; i < field.vectors.size(); ++i) {
+    if (split.assignment[i] != landmark) {
+      continue;
+    }
+    const FlowVector& v = field.vectors[i];
+    const double squared = v.FlowX() * v.FlowX() + v.FlowY() * v.FlowY();
     x += v.MidX();
     y += v.MidY();
-    seen.flow_x += v.FlowX() / n;
-    seen.flow_y += v.FlowY() / n;
-    length += v.Length();
-    square += v.Length() * v.Length();
+    flow_x += v.FlowX();
+    flow_y += v.FlowY();
+    length += std::sqrt(squared);
+    square += squared;
+    ++seen.count;
   }
   // Equations (11), (12).
+  const auto n = static_cast<double>(std::max(1, seen.count));
   seen.x = static_cast<float>(x / n);
   seen.y = static_cast<float>(y / n);
-  seen.count = static_cast<int>(vectors.size());
+  seen.flow_x = flow_x / n;
+  seen.flow_y = flow_y / n;
   const double mean = length / n;
   seen.spread = mean > 0 ? std::sqrt(std::max(0.0, square / n - mean * mean)) / mean : 0;
   return seen;
@@ -107,6 +117,7 @@ LandmarkSplit SplitAtValley(const FlowField& field, const LandmarkOptions& optio
   const auto bins = static_cast<std::size_t>(options.histogram_bins);
   LandmarkSplit split;
   split.histogram.assign(bins, 0);
+  split.assignment.reserve(field.vectors.size());
   for (const FlowVector& v : field.vectors) {
     split.assignment.push_back(IsUsable(v, options) ? 0 : -1);
     if (split.assignment.back() == 0) {
@@ -126,14 +137,9 @@ std::vector<SeenLandmark> FindLandmarks(const FlowField& field, const LandmarkOp
   const LandmarkSplit split = SplitAtValley(field, options);
   std::vector<SeenLandmark> seen;
   for (const int landmark : {0, 1}) {
-    std::vector<FlowVector> vectors;
-    for (std::size_t i = 0; i < field.vectors.size(); ++i) {
-      if (split.assignment[i] == landmark) {
-        vectors.push_back(field.vectors[i]);
-      }
-    }
-    if (!vectors.empty() && static_cast<int>(vectors.size()) >= options.min_vectors) {
-      seen.push_back(MeanOf(vectors));
+    const SeenLandmark mean = MeanOf(field, split, landmark);
+    if (mean.count > 0 && mean.count >= options.min_vectors) {
+      seen.push_back(mean);
     }
   }
   return seen;

@@ -100,7 +100,7 @@ absl::Status RecordingSession::Process(const Observation& observation, TimePoint
   if (recorder_->settings() != before) {
     append.settings = recorder_->settings();
   }
-  return Commit(append, slot);
+  return Commit(std::move(append), slot);
 }
 
 absl::Status RecordingSession::CheckDue(const Observation& observation) const {
@@ -127,15 +127,16 @@ absl::Status RecordingSession::CheckKind(const Observation& observation) {
   return absl::OkStatus();
 }
 
-absl::Status RecordingSession::Commit(const storage::JourneyAppend& append, std::int64_t slot) {
+absl::Status RecordingSession::Commit(storage::JourneyAppend append, std::int64_t slot) {
   HOMING_RETURN_IF_ERROR(claim_.journey->BeginAppend(claim_.claim));
-  auto done = [self = shared_from_this(), slot, append](const absl::Status& status) {
-    self->claim_.journey->EndAppend(append, status);
-    self->Complete(slot, status, {append.sequence, 0, std::nullopt, append.step});
+  auto done = [self = shared_from_this(), slot](storage::JourneyAppend ended,
+                                                const absl::Status& status) {
+    self->claim_.journey->EndAppend(ended, status);
+    self->Complete(slot, status, {ended.sequence, 0, std::nullopt, std::move(ended.step)});
   };
-  absl::Status status = context_.queue->Submit(append, std::move(done));
+  absl::Status status = context_.queue->Submit(std::move(append), std::move(done));
   if (!status.ok()) {
-    claim_.journey->EndAppend(append, status);
+    claim_.journey->EndAppend({}, status);
   }
   return status;
 }

@@ -75,7 +75,7 @@ class RecordingSession : public std::enable_shared_from_this<RecordingSession> {
   absl::Status Process(const Observation& observation, TimePoint now, std::int64_t slot);
   absl::Status CheckDue(const Observation& observation) const;
   absl::Status CheckKind(const Observation& observation);
-  absl::Status Commit(const storage::JourneyAppend& append, std::int64_t slot);
+  absl::Status Commit(storage::JourneyAppend append, std::int64_t slot);
   std::int64_t OpenSlot();
   void Complete(std::int64_t slot, const absl::Status& status, RecordingAnswer answer);
   void Deliver(Slot slot);

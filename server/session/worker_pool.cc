@@ -7,6 +7,9 @@
 namespace homing::server {
 namespace {
 
+// A stream with more of them lets others have their turn.
+constexpr int kTasksATurn = 8;
+
 void RunOpenCvSingleThreaded() {
   static std::once_flag once;
   std::call_once(once, [] { cv::setNumThreads(0); });
@@ -83,26 +86,24 @@ void Strand::Post(WorkerPool::Task task) {
     }
     scheduled_ = true;
   }
-  pool_->Run([self = shared_from_this()] { self->RunOne(); });
+  pool_->Run([self = shared_from_this()] { self->RunSome(); });
 }
 
-void Strand::RunOne() {
-  WorkerPool::Task task;
-  {
-    const std::lock_guard lock(mutex_);
-    task = std::move(tasks_.front());
-    tasks_.pop_front();
-  }
-  task();
-  task = nullptr;
-  {
-    const std::lock_guard lock(mutex_);
-    if (tasks_.empty()) {
-      scheduled_ = false;
-      return;
+void Strand::RunSome() {
+  for (int run = 0; run < kTasksATurn; ++run) {
+    WorkerPool::Task task;
+    {
+      const std::lock_guard lock(mutex_);
+      if (tasks_.empty()) {
+        scheduled_ = false;
+        return;
+      }
+      task = std::move(tasks_.front());
+      tasks_.pop_front();
     }
+    task();
   }
-  pool_->Run([self = shared_from_this()] { self->RunOne(); });
+  pool_->Run([self = shared_from_this()] { self->RunSome(); });
 }
 
 }  // namespace homing::server

@@ -53,7 +53,7 @@ class Strand : public std::enable_shared_from_this<Strand> {
   void Post(WorkerPool::Task task);
 
  private:
-  void RunOne();
+  void RunSome();
 
   WorkerPool* const pool_;
   std::mutex mutex_;

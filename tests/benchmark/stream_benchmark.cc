@@ -26,7 +26,7 @@ constexpr int kFrames = 120;
 constexpr int kFlows = 4000;
 constexpr int kVectors = 200;
 // Most sent and not yet acknowledged: what the client library keeps.
-constexpr int kWindow = 32;
+constexpr int kWindow = 256;
 const cv::Size kSize(640, 480);
 
 int Streams() { return static_cast<int>(std::max(1U, std::thread::hardware_concurrency())); }

@@ -61,13 +61,15 @@ TEST(CommitQueue, CallsBackOnlyAfterTheCommitInOrderOfSubmission) {
     CommitQueue queue(store.get());
     for (const JourneyStep& step : steps) {
       ASSERT_THAT(
-          queue.Submit(AppendOf("j", step),
-                       [&, sequence = step.step](const absl::Status& status) {
-                         order.push_back(sequence);
-                         if (!status.ok() || store->GetJourney("j")->next_sequence <= sequence) {
-                           ++early;
-                         }
-                       }),
+          queue.Submit(
+              AppendOf("j", step),
+              [&, sequence = step.step](const JourneyAppend& append, const absl::Status& status) {
+                if (append.sequence != sequence) ++early;
+                order.push_back(sequence);
+                if (!status.ok() || store->GetJourney("j")->next_sequence <= sequence) {
+                  ++early;
+                }
+              }),
           IsOk());
     }
   }
@@ -83,7 +85,7 @@ TEST(CommitQueue, GroupsWhatWaitsRefusesTheRestAndDrains) {
   HeldStore store;
   int called = 0;
   absl::Status last;
-  const auto done = [&](absl::Status status) {
+  const auto done = [&](const JourneyAppend&, absl::Status status) {
     ++called;
     last = std::move(status);
   };
@@ -115,7 +117,9 @@ TEST(CommitQueue, ManyThreadsMaySubmit) {
       ASSERT_THAT(store->CreateJourney(Record("j" + std::to_string(j))), IsOk());
       robots.emplace_back([&, j] {
         for (const JourneyStep& step : MakeSteps(50)) {
-          const auto count = [&](const absl::Status& status) { failed += status.ok() ? 0 : 1; };
+          const auto count = [&](const JourneyAppend&, const absl::Status& status) {
+            failed += status.ok() ? 0 : 1;
+          };
           if (!queue.Submit(AppendOf("j" + std::to_string(j), step), count).ok()) ++failed;
         }
       });

@@ -20,11 +20,11 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
 double MedianOf(const FlowField& field, double (FlowVector::*component)() const) {
-  std::vector<double> values;
+  std::vector<float> values;
   for (const FlowVector& v : field.vectors) {
-    values.push_back((v.*component)());
+    values.push_back(static_cast<float>((v.*component)()));
   }
-  return Median(std::move(values));
+  return Median(values);
 }
 
 struct Translation {
@@ -44,11 +44,11 @@ TEST_P(TranslationTest, TranslatedTextureGivesTheTranslation) {
   ASSERT_GT(field.vectors.size(), 20U);
   EXPECT_NEAR(MedianOf(field, &FlowVector::FlowX), u, 0.05);
   EXPECT_NEAR(MedianOf(field, &FlowVector::FlowY), v, 0.05);
-  std::vector<double> misses;
+  std::vector<float> misses;
   for (const FlowVector& vector : field.vectors) {
-    misses.push_back(std::hypot(vector.FlowX() - u, vector.FlowY() - v));
+    misses.push_back(static_cast<float>(std::hypot(vector.FlowX() - u, vector.FlowY() - v)));
   }
-  EXPECT_LT(Median(std::move(misses)), 0.1);
+  EXPECT_LT(Median(misses), 0.1);
 }
 
 INSTANTIATE_TEST_SUITE_P(

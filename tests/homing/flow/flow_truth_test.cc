@@ -31,13 +31,14 @@ TEST_P(FlowTruthTest, MedianEndPointErrorIsUnderHalfAPixel) {
   const cv::Mat truth = ReadTruth(folder / "flow10.flo");
   const FlowField field =
       FlowOf(ReadImage(folder / "frame10.png"), ReadImage(folder / "frame11.png"));
-  std::vector<double> errors;
+  std::vector<float> errors;
   for (const FlowVector& v : field.vectors) {
     const auto exact =
         truth.at<cv::Vec2f>(int(std::lround(v.start_y)), int(std::lround(v.start_x)));
     // Unknown truth is marked by huge values.
     if (std::abs(exact[0]) < 1e3F) {
-      errors.push_back(std::hypot(v.FlowX() - double{exact[0]}, v.FlowY() - double{exact[1]}));
+      errors.push_back(static_cast<float>(
+          std::hypot(v.FlowX() - double{exact[0]}, v.FlowY() - double{exact[1]})));
     }
   }
   ASSERT_GT(errors.size(), 50U);
