@@ -21,6 +21,8 @@ struct CommitQueue::State {
   std::deque<JourneyAppend> appends;
   std::deque<Done> callbacks;
   bool stopping = false;
+  // Appends in the last transaction.
+  std::size_t last_batch = 0;
 
   std::thread thread;
 
@@ -33,12 +35,17 @@ struct CommitQueue::State {
 bool CommitQueue::State::TakeBatch(std::vector<JourneyAppend>& batch, std::vector<Done>& done) {
   std::unique_lock lock(mutex);
   changed.wait(lock, [this] { return stopping || !appends.empty(); });
+  if (last_batch >= options.busy_batch) {
+    changed.wait_for(lock, options.gather_time,
+                     [this] { return stopping || appends.size() >= options.full_batch; });
+  }
   const std::size_t limit = static_cast<std::size_t>(std::max(1, options.max_batch));
   const auto size = static_cast<std::ptrdiff_t>(std::min(appends.size(), limit));
   batch.assign(std::move_iterator(appends.begin()), std::move_iterator(appends.begin() + size));
   done.assign(std::move_iterator(callbacks.begin()), std::move_iterator(callbacks.begin() + size));
   appends.erase(appends.begin(), appends.begin() + size);
   callbacks.erase(callbacks.begin(), callbacks.begin() + size);
+  last_batch = static_cast<std::size_t>(size);
   return size > 0;
 }
 

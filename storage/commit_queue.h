@@ -2,6 +2,8 @@
 #ifndef STORAGE_COMMIT_QUEUE_H_
 #define STORAGE_COMMIT_QUEUE_H_
 
+#include <chrono>
+#include <cstddef>
 #include <functional>
 #include <memory>
 
@@ -14,6 +16,12 @@ struct CommitQueueOptions {
   int max_pending = 32768;
   // Most appends in one transaction.
   int max_batch = 1024;
+  // After a transaction of at least `busy_batch` appends the next one waits so long for more to
+  // come, unless `full_batch` are there: transactions have a cost of their own, most of all on a
+  // disk whose syncs are quick. A robot alone is never kept waiting.
+  std::size_t busy_batch = 5;
+  std::size_t full_batch = 256;
+  std::chrono::milliseconds gather_time{2};
 };
 
 // One thread commits all that waits, in order of submission, then calls back. Thread-safe.

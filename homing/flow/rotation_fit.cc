@@ -17,7 +17,7 @@ namespace {
 
 constexpr int kMaxIterations = 10;
 // A step this small, pixels, is the last.
-constexpr double kConvergedPx = 1e-3;
+constexpr double kConvergedPx = 0.01;
 // A vector is explained if it is this near, pixels, or this share of what the rotation says.
 constexpr double kNoisePx = 0.35;
 constexpr double kNoiseShare = 0.15;
@@ -56,12 +56,14 @@ System::System(const FlowField& field, const Camera& camera) : size(field.vector
   }
   std::vector<float> all_u(size);
   std::vector<float> all_v(size);
+  const double per_x = 1 / in.focal_x;
+  const double per_y = 1 / in.focal_y;
   for (std::size_t i = 0; i < size; ++i) {
     const FlowVector& vector = field.vectors[i];
-    x[i] = (vector.MidX() - in.center_x) / in.focal_x;
-    y[i] = (vector.MidY() - in.center_y) / in.focal_y;
-    u[i] = vector.FlowX() / in.focal_x;
-    v[i] = vector.FlowY() / in.focal_y;
+    x[i] = (vector.MidX() - in.center_x) * per_x;
+    y[i] = (vector.MidY() - in.center_y) * per_y;
+    u[i] = vector.FlowX() * per_x;
+    v[i] = vector.FlowY() * per_y;
     all_u[i] = static_cast<float>(u[i]);
     all_v[i] = static_cast<float>(v[i]);
   }
@@ -218,9 +220,11 @@ RotationFit FitRotation(const FlowField& field, const Camera& camera) {
   const Fit solved = SolveRobustly(system);
   RotationFit fit;
   fit.pan = solved.rotation[0];
-  FitVertical(system, solved.weights, fit);
-  fit.explained =
-      static_cast<double>(CountExplained(system, solved)) / static_cast<double>(system.size);
+  const std::size_t explained = CountExplained(system, solved);
+  fit.explained = static_cast<double>(explained) / static_cast<double>(system.size);
+  if (2 * explained >= system.size) {
+    FitVertical(system, solved.weights, fit);
+  }
   fit.median_residual = system.focal * std::sqrt(solved.median_square);
   std::vector<float> lengths;
   lengths.reserve(system.size);

@@ -13,7 +13,7 @@ struct RotationFit {
   // Pan (things move to higher x), radians a step, from both components of the flow.
   double pan = 0;
   // Pan from the vertical components alone, and its standard error: sideways motion past anything
-  // has none, a turn has.
+  // has none, a turn has. Both 0 when the rotation explains less than half of the vectors.
   double vertical_pan = 0;
   double vertical_pan_error = 0;
   // Share of the vectors that the rotation explains. [0, 1].
