@@ -11,8 +11,11 @@ namespace {
 // Median length below which nothing moves, over the image width: half a pixel at 370, over three
 // times what noise of 4 of 255 makes of a standing camera's flow.
 constexpr double kStandingShare = 1.35e-3;
-// A camera with fewer vectors has no say.
+// A camera with fewer vectors has no say, but that a few that move are enough against standing.
 constexpr std::size_t kMinVectors = 8;
+constexpr std::size_t kFewVectors = 3;
+// Fewer than this in all may lie on what is too far away to be seen moving.
+constexpr std::size_t kMinStandingVectors = 40;
 // What a turn on the spot must explain.
 constexpr double kMinExplained = 0.8;
 constexpr double kMaxResidualRatio = 0.25;
@@ -49,18 +52,23 @@ bool IsTurning(const RotationFit& left, const RotationFit& right) {
 Motion ClassifyMotion(const ObservedFlow& flow, const std::array<Camera, 2>& cameras) {
   std::vector<RotationFit> fits;
   bool standing = true;
+  std::size_t vectors = 0;
   for (std::size_t side = 0; side < 2; ++side) {
     const auto& field = flow.fields[side];
-    if (!field.has_value() || field->vectors.size() < kMinVectors) {
+    if (!field.has_value() || field->vectors.size() < kFewVectors) {
       continue;
     }
-    const RotationFit& fit = fits.emplace_back(FitRotation(*field, cameras[side]));
+    const RotationFit fit = FitRotation(*field, cameras[side]);
     standing = standing && fit.median_length < kStandingShare * field->width;
+    vectors += field->vectors.size();
+    if (field->vectors.size() >= kMinVectors) {
+      fits.push_back(fit);
+    }
   }
   if (fits.empty()) {
     return Motion::kMoving;
   }
-  if (standing) {
+  if (standing && vectors >= kMinStandingVectors) {
     return Motion::kStanding;
   }
   const bool turning = fits.size() == 2 ? IsTurning(fits[0], fits[1]) : IsTurning(fits[0]);

@@ -8,6 +8,8 @@ namespace {
 
 // Shorter flow is noise: it has no more parallax than this. Pixels.
 constexpr double kLeastFlowPx = 0.05;
+// Nearer than this to the camera, of the median's distance, nothing is taken to be.
+constexpr double kLeastDepth = 0.3;
 constexpr int kOutside = -1;
 
 int CellOf(double x, double y) {
@@ -52,10 +54,18 @@ ProfileMaker::ProfileMaker(const FlowField& field) {
 FlowProfile ProfileMaker::Make(double magnification) const {
   std::vector<int> cell_of;
   cell_of.reserve(midpoints_.size());
+  std::vector<double> lengths;
+  lengths.reserve(midpoints_.size());
   std::array<CellFlow, FlowProfile::kCells> cells{};
   CellFlow all;
+  const double per_median = midpoints_.empty() ? 0 : 1 / midpoints_[midpoints_.size() / 2].length;
   for (const Midpoint& midpoint : midpoints_) {
-    const int cell = CellOf(0.5 + midpoint.x * magnification, 0.5 + midpoint.y * magnification);
+    // Nearness to the path, of the median's; what is near changes more than what is far.
+    const double near = midpoint.length * per_median;
+    const double larger =
+        magnification / std::max(kLeastDepth, magnification + near * (1 - magnification));
+    const int cell = CellOf(0.5 + midpoint.x * larger, 0.5 + midpoint.y * larger);
+    lengths.push_back(midpoint.length * larger);
     cell_of.push_back(cell);
     if (cell != kOutside) {
       ++all.count;
@@ -68,8 +78,8 @@ FlowProfile ProfileMaker::Make(double magnification) const {
   };
   for (std::size_t i = 0; i < midpoints_.size(); ++i) {
     if (cell_of[i] != kOutside) {
-      pass(all, midpoints_[i].length);
-      pass(cells[static_cast<std::size_t>(cell_of[i])], midpoints_[i].length);
+      pass(all, lengths[i]);
+      pass(cells[static_cast<std::size_t>(cell_of[i])], lengths[i]);
     }
   }
   // Share of this image that the magnified one fills.

@@ -44,9 +44,13 @@ class ProfileMaker {
   explicit ProfileMaker(const FlowField& field);
 
   // Of the vectors, by their midpoints; those outside the image are left out. All cells 0 if none
-  // is left. `magnification` > 0: as the same camera would see it from so much nearer (about the
-  // middle of the image); one that fills only a part of the image has that part of the vectors.
+  // is left. `magnification` > 0: as the same camera would see it from so much nearer that what has
+  // the median flow looks so much larger (about the middle of the image); what is nearer than that
+  // changes more, what is further away less. One that fills only a part of the image has that part
+  // of the vectors.
   FlowProfile Make(double magnification = 1) const;
+  // Vectors.
+  std::size_t size() const { return midpoints_.size(); }
 
  private:
   // Midpoint from the middle of the image, in images; length in pixels.

@@ -84,8 +84,8 @@ class Drive {
   }
 
   double Ratio(const DistanceScale& scale, std::int64_t step) const {
-    return double{
-        ProfileRatio::Further()(scale.Deviations(distances_[static_cast<std::size_t>(step)]))};
+    return double{ProfileRatio::Further(kWholeWeight)(
+        scale.Deviations(distances_[static_cast<std::size_t>(step)]))};
   }
 
   const RouteProfiles* profiles_;

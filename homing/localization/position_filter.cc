@@ -4,8 +4,6 @@
 #include <array>
 #include <cmath>
 
-#include "homing/localization/step_window.h"
-
 namespace homing {
 namespace {
 
@@ -15,7 +13,11 @@ constexpr double kDirectionMargin = 0.6;
 constexpr double kNoMass = 1e-30;
 // Fitted: see docs/algorithm.md.
 constexpr MembershipRates kByProfiles = {
-    .first_weight = 0.7, .weight = 0.06, .least_log_odds = -4, .most_log_odds = 0.2};
+    .first_weight = 2, .weight = 0.2, .least_log_odds = -5.5, .most_log_odds = 0.05};
+// What not knowing where on the route, within so many steps, speaks against being on it, logarithm,
+// for one side: places of a foreign route are like some here and some there.
+constexpr double kDoubt = 0.60;
+constexpr int kLeastDoubtSteps = 10;
 constexpr MembershipRates kByLandmarks = {
     .first_weight = 1, .weight = 1, .least_log_odds = -30, .most_log_odds = 7.6};
 // An observation whose likelihood ratio, for one side, has less than this logarithm does not fit:
@@ -26,7 +28,7 @@ constexpr int kCalm = 6;
 // Steps of less mass are far, then.
 constexpr double kFarMass = 1e-9;
 // The filter is cautious: of the intervals that it holds p for, 1 - (1 - p)^kCaution were right.
-constexpr double kCaution = 1.86;
+constexpr double kCaution = 2.3;
 
 // Steps count from home.
 Direction DirectionOf(const std::array<double, 2>& mass) {
@@ -119,7 +121,10 @@ void PositionFilter::CorrectByProfiles(std::span<const JourneyRef> journeys,
   }
   const double evidence =
       Weigh(masses_, [this](std::size_t i) { return profile_likelihood_.of(i); });
-  membership_.Add(evidence - profile_likelihood_.OffRoute(), kByProfiles);
+  const double here = FindBest(std::max(options_.tolerance_steps, kLeastDoubtSteps)).window.mass;
+  const double doubt = started_ ? kDoubt * (1 - std::clamp(here, 0.0, 1.0)) : 0;
+  membership_.Add(evidence / profile_likelihood_.sides() - profile_likelihood_.OffRoute() - doubt,
+                  kByProfiles);
   profile_likelihood_.Learn();
   FocusIfCalm();
 }
@@ -179,6 +184,17 @@ void PositionFilter::Normalise(double mass) {
   }
 }
 
+PositionFilter::Best PositionFilter::FindBest(std::int64_t half) const {
+  Best best;
+  for (std::size_t i = 0; i < beliefs_.size(); ++i) {
+    const StepWindow window = BestWindow(masses_[i], half, beliefs_[i].step_count());
+    if (window.mass > best.window.mass) {
+      best = {i, window};
+    }
+  }
+  return best;
+}
+
 Position PositionFilter::Answer() const {
   Position position;
   position.unknown_probability = membership_.OffRoute();
@@ -189,16 +205,9 @@ Position PositionFilter::Answer() const {
     position.outcome = Outcome::kUnknownPlace;
     return position;
   }
-  StepWindow best;
-  for (std::size_t i = 0; i < beliefs_.size(); ++i) {
-    const StepWindow window =
-        BestWindow(masses_[i], options_.tolerance_steps, beliefs_[i].step_count());
-    if (window.mass > best.mass) {
-      best = window;
-      position.journey = static_cast<int>(i);
-    }
-  }
-  const RouteBelief& belief = beliefs_[static_cast<std::size_t>(position.journey)];
+  const auto [journey, best] = FindBest(options_.tolerance_steps);
+  position.journey = static_cast<int>(journey);
+  const RouteBelief& belief = beliefs_[journey];
   position.step = best.step;
   position.interval_first = best.first;
   position.interval_last = best.last;

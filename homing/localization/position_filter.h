@@ -15,6 +15,7 @@
 #include "homing/localization/route_belief.h"
 #include "homing/localization/route_membership.h"
 #include "homing/localization/step_likelihood.h"
+#include "homing/localization/step_window.h"
 
 namespace homing {
 
@@ -33,7 +34,7 @@ struct PositionOptions {
   bool paper_only = false;
   LikelihoodOptions likelihood;
   // Off the route before anything was seen. [0, 1).
-  double off_route_prior = 0.1;
+  double off_route_prior = 0.2;
   // Probability a step that the robot has been set down anywhere (uniform restart). [0, 1).
   double restart_probability = 1e-9;
 };
@@ -88,6 +89,12 @@ class PositionFilter {
   void Unfocus();
   // Makes the mass of all steps 1, where it was `mass`.
   void Normalise(double mass);
+  // The interval of +- `half` steps, of all journeys, that holds the most.
+  struct Best {
+    std::size_t journey = 0;
+    StepWindow window;
+  };
+  Best FindBest(std::int64_t half) const;
   Position Answer() const;
 
   PositionOptions options_;

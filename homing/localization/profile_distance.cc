@@ -42,13 +42,14 @@ void ProfileDistances(const FlowProfile& seen, std::span<const FlowProfile> stor
       const std::uint8_t share_b = b[cell] & 15;
       const std::uint8_t parallax_a = a[cell] >> 4;
       const std::uint8_t parallax_b = b[cell] >> 4;
-      const auto share =
-          static_cast<std::uint8_t>(std::max(share_a, share_b) - std::min(share_a, share_b));
+      // What is gone says less than what has come: landmarks vanish, and poor light hides.
+      const auto gone = static_cast<std::uint8_t>(share_b - std::min(share_a, share_b));
+      const auto come = static_cast<std::uint8_t>(share_a - std::min(share_a, share_b));
       const std::uint8_t parallax = std::min<std::uint8_t>(
           kMostParallax, static_cast<std::uint8_t>(std::max(parallax_a, parallax_b) -
                                                    std::min(parallax_a, parallax_b)));
       const std::uint8_t both = parallax_a != 0 && parallax_b != 0 ? 255 : 0;
-      const auto cost = static_cast<std::uint8_t>(share * 4 + (parallax & both));
+      const auto cost = static_cast<std::uint8_t>(gone * 3 + come * 4 + (parallax & both));
       sum = static_cast<std::uint16_t>(sum + (cost & mask[cell]));
     }
     distances[i] = sum;

@@ -1,6 +1,7 @@
 #include "homing/localization/profile_evidence.h"
 
 #include <cmath>
+#include <vector>
 
 namespace homing {
 namespace {
@@ -11,9 +12,11 @@ namespace {
 constexpr double kSlope = 2;
 constexpr double kNeutral = 1;
 constexpr double kMostEvidence = 5;
-constexpr double kOutlierShare = 0.2;
-// Exponent of what a further observation says.
+constexpr double kOutlierShare = 0.25;
+// Exponents of what the first observation says, and a further one of kEnoughVectors or more.
+constexpr double kFirstTemper = 1;
 constexpr double kTemper = 0.3;
+constexpr double kEnoughVectors = 50;
 // Deviation of unmatched distances, of their middle, and how many of them it is worth.
 constexpr double kDeviation = 0.17;
 constexpr double kDeviationWorth = 100;
@@ -54,13 +57,24 @@ ProfileRatio::ProfileRatio(double temper) {
 }
 
 const ProfileRatio& ProfileRatio::First() {
-  static const ProfileRatio ratio(1);
+  static const ProfileRatio ratio(kFirstTemper);
   return ratio;
 }
 
-const ProfileRatio& ProfileRatio::Further() {
-  static const ProfileRatio ratio(kTemper);
-  return ratio;
+const ProfileRatio& ProfileRatio::Further(int weight) {
+  static const auto ratios = [] {
+    std::vector<ProfileRatio> all;
+    for (int i = 0; i <= kWholeWeight; ++i) {
+      all.push_back(ProfileRatio(kTemper * i / kWholeWeight));
+    }
+    return all;
+  }();
+  return ratios[static_cast<std::size_t>(weight)];
+}
+
+int EvidenceWeight(std::size_t vectors) {
+  const double share = std::min(1.0, static_cast<double>(vectors) / kEnoughVectors);
+  return std::max(1, static_cast<int>(std::lround(kWholeWeight * share)));
 }
 
 }  // namespace homing

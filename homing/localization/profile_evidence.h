@@ -27,13 +27,18 @@ struct DistanceScale {
 // A short one says little: then what is usual counts more.
 DistanceScale ScaleOf(std::span<std::uint16_t> sample);
 
+// What a view of so many flow vectors may say, of kWholeWeight: few of them show little.
+inline constexpr int kWholeWeight = 8;
+int EvidenceWeight(std::size_t vectors);
+
 // The ratio of a distance so many deviations from the middle of the unmatched ones. Positive.
 class ProfileRatio {
  public:
   // Of the first observation of a robot, which depends on nothing before.
   static const ProfileRatio& First();
   // Of a further one, which shows nearly what the one before has shown: tempered.
-  static const ProfileRatio& Further();
+  // `weight`: of EvidenceWeight.
+  static const ProfileRatio& Further(int weight);
 
   float operator()(float deviations) const {
     const float at = (std::clamp(deviations, -kMost, kMost - 0.01F) + kMost) * kPerDeviation;

@@ -8,15 +8,15 @@ namespace homing {
 namespace {
 
 // What a side says on a foreign route, logarithm: the best of many steps looks good.
-constexpr double kFirstForeignEvidence = 0.18;
-constexpr double kForeignEvidence = 0.40;
+constexpr double kFirstForeignEvidence = 0.57;
+constexpr double kForeignEvidence = 0.175;
 // Stored profiles that tell how far away those of other places are; at most twice as many.
 constexpr std::int64_t kSamples = 256;
 // A less probable offset is tried only now and then, once the place is known.
 constexpr double kLeastOffset = 0.02;
 // Deviation of the offset from the outbound path, and the probability a step of another one.
-constexpr double kOffsetDeviation = 0.15;
-constexpr double kOffsetChange = 0.01;
+constexpr double kOffsetDeviation = 0.2;
+constexpr double kOffsetChange = 0.15;
 
 const std::array<double, kPathOffsets.size()>& OffsetPrior() {
   static const auto prior = [] {
@@ -60,6 +60,7 @@ void ProfileLikelihood::Compute(std::span<const JourneyRef> journeys, const Seen
           return HasProfiles(journey, side);
         });
     if (compared_[side]) {
+      weights_[side] = EvidenceWeight(seen[side]->size());
       Measure(journeys, Side{static_cast<int>(side)}, *seen[side], predicted);
     }
   }
@@ -125,7 +126,8 @@ void ProfileLikelihood::Multiply(std::size_t side, std::size_t view, std::size_t
                                  std::vector<float>& factors) const {
   const std::vector<std::uint16_t>& distances = distances_[side][view][journey];
   const DistanceScale scale = scales_[side][view];
-  const ProfileRatio& ratio = instants_ == 0 ? ProfileRatio::First() : ProfileRatio::Further();
+  const ProfileRatio& ratio =
+      instants_ == 0 ? ProfileRatio::First() : ProfileRatio::Further(weights_[side]);
   for (std::size_t step = 0; step < distances.size(); ++step) {
     factors[step] *= ratio(scale.Deviations(distances[step]));
   }
@@ -174,13 +176,17 @@ double ProfileLikelihood::MeanFit() const {
   return fit / weight;
 }
 
-double ProfileLikelihood::LogFit() const {
-  return std::log(std::max(MeanFit(), 1e-30)) / (compared_[0] && compared_[1] ? 2 : 1);
-}
+double ProfileLikelihood::LogFit() const { return std::log(std::max(MeanFit(), 1e-30)) / sides(); }
 
 double ProfileLikelihood::OffRoute() const {
-  return (instants_ == 0 ? kFirstForeignEvidence : kForeignEvidence) *
-         ((compared_[0] ? 1 : 0) + (compared_[1] ? 1 : 0));
+  if (instants_ == 0) {
+    return kFirstForeignEvidence;
+  }
+  double weight = 0;
+  for (std::size_t side = 0; side < compared_.size(); ++side) {
+    weight += compared_[side] ? static_cast<double>(weights_[side]) / kWholeWeight : 0;
+  }
+  return kForeignEvidence * weight / sides();
 }
 
 // An offset under which the believed steps fit gains.

@@ -36,8 +36,10 @@ class ProfileLikelihood {
   std::span<const float> of(std::size_t journey) const { return likelihoods_[journey]; }
   // Mean over the predicted mass, logarithm, for one side.
   double LogFit() const;
-  // The value of being off the route, logarithm.
+  // The value of being off the route, logarithm, for one side.
   double OffRoute() const;
+  // Sides that were compared: 1 or 2.
+  int sides() const { return (compared_[0] ? 1 : 0) + (compared_[1] ? 1 : 0); }
 
  private:
   static constexpr std::size_t kViews = kPathOffsets.size();
@@ -57,6 +59,8 @@ class ProfileLikelihood {
   std::array<CellMask, kViews> covered_;
   std::array<std::array<Distances, kViews>, 2> distances_;
   std::array<std::array<DistanceScale, kViews>, 2> scales_;
+  // EvidenceWeight of each side.
+  std::array<int, 2> weights_{};
   std::array<bool, 2> compared_{};
   // Offsets that are tried at this instant.
   std::array<bool, kViews> chosen_{};

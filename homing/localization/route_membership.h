@@ -8,7 +8,7 @@ namespace homing {
 // independent: each counts for a fraction, the first for most. And however long a route has fitted,
 // another may begin: the odds are bounded.
 struct MembershipRates {
-  // Share of the evidence of the first observation, and of each further one. (0, 1].
+  // Weight of the evidence of the first observation, and of each further one. Positive.
   double first_weight = 1;
   double weight = 1;
   // Bounds of the logarithm of the odds of being off the route.

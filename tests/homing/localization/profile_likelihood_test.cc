@@ -105,7 +105,7 @@ TEST_F(ProfileLikelihoodTest, TheOtherSideSaysNothing) {
   EXPECT_TRUE(ProfileLikelihood::CanCompare({&ref_, 1}, seen));
 }
 
-TEST(ProfileDistanceTest, IsZeroToItselfAndSymmetric) {
+TEST(ProfileDistanceTest, IsZeroToItselfAndNearlySymmetric) {
   std::mt19937_64 engine(9);
   const FlowProfile a = MakeFlowProfile(RandomField(engine));
   const FlowProfile b = MakeFlowProfile(RandomField(engine));
@@ -117,8 +117,10 @@ TEST(ProfileDistanceTest, IsZeroToItselfAndSymmetric) {
   ProfileDistances(b, stored, all, from_b);
   EXPECT_EQ(from_a[0], 0);
   EXPECT_EQ(from_b[1], 0);
-  EXPECT_EQ(from_a[1], from_b[0]);
+  // What is gone counts three quarters of what has come.
   EXPECT_GT(from_a[1], 0);
+  EXPECT_GE(from_a[1], from_b[0] * 3 / 4);
+  EXPECT_LE(from_a[1], from_b[0] * 4 / 3);
 }
 
 TEST(ProfileDistanceTest, CountsSharesAndParallaxOfCoveredCells) {
@@ -132,9 +134,9 @@ TEST(ProfileDistanceTest, CountsSharesAndParallaxOfCoveredCells) {
   const std::vector<FlowProfile> stored = {b};
   std::vector<std::uint16_t> distance(1);
   ProfileDistances(a, stored, CoveredCells(1), distance);
-  EXPECT_EQ(distance[0], (4 * 3 + 2) + (4 * 5 + 6) + 4 * 3);
+  EXPECT_EQ(distance[0], (4 * 3 + 2) + (3 * 5 + 6) + 4 * 3);
   ProfileDistances(a, stored, CoveredCells(0.5), distance);
-  EXPECT_EQ(distance[0], (4 * 5 + 6) + 4 * 3);
+  EXPECT_EQ(distance[0], (3 * 5 + 6) + 4 * 3);
 }
 
 }  // namespace
