@@ -13,8 +13,7 @@
 namespace homing {
 
 // Immutable value of 96 bytes; of one byte a cell, rows from the top, each from the left:
-// - low four bits, the share code: 30 sqrt(vectors in the cell / n), rounded, at most 15, where n
-// is
+// - low four bits, the share code: 30 sqrt(vectors in the cell / n), rounded, at most 15; n is
 //   the geometric mean of the vectors in the image and 180: half a share, which poor light leaves
 //   alone, half a number, which a landmark that is gone leaves alone;
 // - high four bits, the parallax code: 0 where there is no vector; else 8 + 4 log2(median flow of

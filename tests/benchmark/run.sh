@@ -53,7 +53,7 @@ start_server() {
     [ -n "$address" ] || sleep 0.02
   done
 }
-resident_kib() { sed -n 's/^VmRSS: *\([0-9]*\) kB/\1/p' "/proc/$server/status"; }
+resident_kib() { sed -n 's/^VmRSS:[[:space:]]*\([0-9]*\) kB/\1/p' "/proc/$server/status"; }
 field() { sed -n "s/.*\"$2\":\([0-9.e+-]*\).*/\1/p" "$1"; }
 # keep RUN COUNTER VALUE
 keep() { echo "$1 $2 $3" >>"$work/load"; }
