@@ -13,8 +13,7 @@ constexpr double kSlope = 2;
 constexpr double kNeutral = 1;
 constexpr double kMostEvidence = 5;
 constexpr double kOutlierShare = 0.25;
-// Exponents of what the first observation says, and a further one of kEnoughVectors or more.
-constexpr double kFirstTemper = 1;
+// Exponent of what a further observation of kEnoughVectors or more says.
 constexpr double kTemper = 0.3;
 constexpr double kEnoughVectors = 50;
 // Deviation of unmatched distances, of their middle, and how many of them it is worth.
@@ -57,7 +56,7 @@ ProfileRatio::ProfileRatio(double temper) {
 }
 
 const ProfileRatio& ProfileRatio::First() {
-  static const ProfileRatio ratio(kFirstTemper);
+  static const ProfileRatio ratio(1);
   return ratio;
 }
 

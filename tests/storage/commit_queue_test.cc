@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <chrono>
 #include <future>
 #include <thread>
 
@@ -103,6 +104,28 @@ TEST(CommitQueue, GroupsWhatWaitsRefusesTheRestAndDrains) {
   EXPECT_EQ(called, 6);
   EXPECT_THAT(store.batches, ::testing::ElementsAre(1, 3, 2));
   EXPECT_THAT(last, StatusIs(absl::StatusCode::kUnavailable, HasSubstr("held")));
+}
+
+TEST(CommitQueue, AfterALargeBatchItWaitsForMore) {
+  HeldStore store;
+  std::atomic<int> called = 0;
+  const auto done = [&](const JourneyAppend&, const absl::Status&) { ++called; };
+  {
+    CommitQueue queue(&store,
+                      {.busy_batch = 1, .full_batch = 2, .gather_time = std::chrono::hours(1)});
+    store.released.set_value();
+    ASSERT_THAT(queue.Submit(JourneyAppend(), done), IsOk());
+    while (called < 1) std::this_thread::yield();
+    ASSERT_THAT(queue.Submit(JourneyAppend(), done), IsOk());
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    EXPECT_EQ(called, 1);
+    ASSERT_THAT(queue.Submit(JourneyAppend(), done), IsOk());
+    while (called < 3) std::this_thread::yield();
+    // What waits when it ends is committed at once.
+    ASSERT_THAT(queue.Submit(JourneyAppend(), done), IsOk());
+  }
+  EXPECT_EQ(called, 4);
+  EXPECT_THAT(store.batches, ::testing::ElementsAre(1, 2, 1));
 }
 
 TEST(CommitQueue, ManyThreadsMaySubmit) {

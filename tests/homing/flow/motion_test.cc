@@ -73,6 +73,22 @@ TEST(ClassifyMotionTest, NoVectorsTellNothing) {
   EXPECT_EQ(ClassifyMotion(blank, {}), Motion::kMoving);
 }
 
+// Clouds and hills beside an empty road.
+TEST(ClassifyMotionTest, FewVectorsThatDoNotMoveAreNoProofOfStanding) {
+  ObservedFlow flow = RobotFlow(0, 0, FlatWall, 0.1);
+  flow.fields[0]->vectors.resize(11);
+  flow.fields[1]->vectors.resize(7);
+  EXPECT_EQ(ClassifyMotion(flow, {}), Motion::kMoving);
+}
+
+TEST(ClassifyMotionTest, AFewVectorsThatMoveSpeakAgainstStanding) {
+  ObservedFlow flow = RobotFlow(0, 0, FlatWall, 0.1);
+  flow.fields[1] = FieldOf({-0.2, 0, 0}, FlatWall, 0.1, 2);
+  flow.fields[1]->vectors.resize(5);
+  EXPECT_EQ(ClassifyMotion(flow, {}), Motion::kMoving);
+  EXPECT_EQ(ClassifyMotion(LeftOf(flow), {}), Motion::kStanding);
+}
+
 TEST(ClassifyMotionTest, OnePixelAStepIsMoving) {
   const double metres = 4 / kFocal;
   EXPECT_EQ(ClassifyMotion(RobotFlow(metres, 0, FlatWall, 0.1), {}), Motion::kMoving);

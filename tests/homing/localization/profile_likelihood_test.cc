@@ -5,6 +5,8 @@
 #include <cmath>
 #include <random>
 
+#include "homing/localization/profile_evidence.h"
+
 namespace homing {
 namespace {
 
@@ -103,6 +105,15 @@ TEST_F(ProfileLikelihoodTest, TheOtherSideSaysNothing) {
   EXPECT_FALSE(ProfileLikelihood::CanCompare({&ref_, 1}, {}));
   seen[0] = seen[1];
   EXPECT_TRUE(ProfileLikelihood::CanCompare({&ref_, 1}, seen));
+}
+
+TEST(EvidenceWeightTest, FewVectorsSayLittleButNeverNothing) {
+  EXPECT_EQ(EvidenceWeight(0), 1);
+  EXPECT_EQ(EvidenceWeight(25), kWholeWeight / 2);
+  EXPECT_EQ(EvidenceWeight(50), kWholeWeight);
+  EXPECT_EQ(EvidenceWeight(5000), kWholeWeight);
+  const float near = -3;
+  EXPECT_LT(ProfileRatio::Further(2)(near), ProfileRatio::Further(kWholeWeight)(near));
 }
 
 TEST(ProfileDistanceTest, IsZeroToItselfAndNearlySymmetric) {
