@@ -11,8 +11,16 @@
 
 namespace homing {
 
+// Images of one step to the next, kept for the next frame of the same size.
+struct CornerBuffers {
+  cv::Mat strength;
+  cv::Mat strongest;
+};
+
 // Corners of a normalised image (CV_32FC1), working pixels, row by row of cells. No two are nearer
 // than half a cell. `enlargement` is working size over source size, 1 if the image was shrunk.
+std::vector<cv::Point2f> DetectCorners(const cv::Mat& normalized, const FlowOptions& options,
+                                       double enlargement, CornerBuffers* buffers);
 std::vector<cv::Point2f> DetectCorners(const cv::Mat& normalized, const FlowOptions& options,
                                        double enlargement = 1);
 

@@ -30,6 +30,7 @@ struct TrackedFrame {
 // What a frame needs besides, kept from one to the next.
 struct Buffers {
   WorkingBuffers working;
+  CornerBuffers corners;
   cv::Mat levels;
 };
 
@@ -39,7 +40,8 @@ void Prepare(const cv::Mat& gray, const FlowOptions& options, Buffers* buffers,
   const cv::Mat& normalized = NormalizedImage(gray, options, &buffers->working);
   frame->source_size = gray.size();
   frame->scale = {double(normalized.cols) / gray.cols, double(normalized.rows) / gray.rows};
-  frame->corners = DetectCorners(normalized, options, std::max(1.0, frame->scale.x));
+  frame->corners =
+      DetectCorners(normalized, options, std::max(1.0, frame->scale.x), &buffers->corners);
   normalized.convertTo(buffers->levels, CV_8U, kLevelsPerDeviation, 128);
   const cv::Size window(options.window_px, options.window_px);
   cv::buildOpticalFlowPyramid(buffers->levels, frame->pyramid, window, options.pyramid_levels, true,
@@ -55,12 +57,12 @@ struct Tracks {
 Tracks TrackPoints(const TrackedFrame& from, const TrackedFrame& to,
                    const std::vector<cv::Point2f>& points, const FlowOptions& options) {
   Tracks tracks;
-  std::vector<float> unused_error;
   const cv::Size window(options.window_px, options.window_px);
   const cv::TermCriteria end(cv::TermCriteria::COUNT | cv::TermCriteria::EPS, kIterations,
                              kConvergencePx);
+  // No error is asked for: it costs as much as an iteration.
   cv::calcOpticalFlowPyrLK(from.pyramid, to.pyramid, points, tracks.ends, tracks.found,
-                           unused_error, window, options.pyramid_levels, end, 0, kSingular);
+                           cv::noArray(), window, options.pyramid_levels, end, 0, kSingular);
   return tracks;
 }
 

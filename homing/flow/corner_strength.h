@@ -1,0 +1,26 @@
+// How much of a corner each pixel is: the smaller eigenvalue of eq 3's matrix. Source: paper II-B,
+// eqs 3 to 5; own design in that only what the next row needs is kept between rows.
+#ifndef HOMING_FLOW_CORNER_STRENGTH_H_
+#define HOMING_FLOW_CORNER_STRENGTH_H_
+
+#include <opencv2/core.hpp>
+
+namespace homing {
+
+// Window of the gradient matrix, pixels.
+inline constexpr int kCornerBlockPx = 5;
+
+// Strength of an image whose gradient matrix, averaged over the window, has this smaller eigenvalue
+// (squared units of the image over px^2).
+constexpr float StrengthOf(double eigenvalue) {
+  // Neither the 8 of the gradient's kernel nor the window's area is divided by.
+  return static_cast<float>(eigenvalue * 8 * 8 * kCornerBlockPx * kCornerBlockPx);
+}
+
+// `image` and `strength` are CV_32FC1; what lies beyond the border is mirrored. The same to the bit
+// on every machine. REQUIRES: sides of at least 5 px.
+void CornerStrength(const cv::Mat& image, cv::Mat* strength);
+
+}  // namespace homing
+
+#endif  // HOMING_FLOW_CORNER_STRENGTH_H_
