@@ -6,7 +6,7 @@ set -eu
 cd "$(dirname "$0")/.."
 image=${IMAGE:-localhost/homing-server:latest}
 base=localhost/homing-base:bookworm
-client=${CLIENT:-build/release/client/homing}
+client=${CLIENT:-build/dev/client/homing}
 
 sh deploy/install.sh container
 work=$(mktemp -d)

@@ -61,13 +61,14 @@ start=$(date +%s)
 sh deploy/install.sh build client
 mkdir -p build
 quietly() {
-  log=build/release-$1.log
+  log=build/dev-$1.log
   shift
   "$@" >"$log" 2>&1 </dev/null || { tail -n 100 "$log" >&2; exit 1; }
 }
-[ -f build/release/build.ninja ] || quietly configure cmake --preset release
-echo "Building (log: build/release-build.log)"
-quietly build cmake --build --preset release --target homing-server homing -j "$(nproc)"
+# The tests go on from this build.
+[ -f build/dev/build.ninja ] || quietly configure cmake --preset dev -DHOMING_TESTS=OFF
+echo "Building (log: build/dev-build.log)"
+quietly build cmake --build --preset dev --target homing-server homing -j "$(nproc)"
 
 out=quickstart
 rm -rf "$out"
@@ -81,7 +82,7 @@ finish() {
 }
 trap finish EXIT
 trap 'exit 130' INT TERM
-build/release/server/homing-server --listen 127.0.0.1:0 --database "sqlite:$out/homing.db" \
+build/dev/server/homing-server --listen 127.0.0.1:0 --database "sqlite:$out/homing.db" \
   >"$out/server.log" 2>&1 </dev/null &
 server=$!
 address=
@@ -92,7 +93,7 @@ while [ -z "$address" ]; do
 done
 echo "Set-up took $(($(date +%s) - start)) s; homing-server listens on $address"
 
-homing() { build/release/client/homing --server "$address" "$@"; }
+homing() { build/dev/client/homing --server "$address" "$@"; }
 journey=robots/quickstart/journeys/out
 
 echo "Recording the way out as $journey"

@@ -60,9 +60,9 @@ forbid() {
   what=$1 pattern=$2
   shift 2
   [ $# -gt 0 ] || return 0
-  for file in "$@"; do
-    sed 's|//.*||' "$file" | grep -nE "$pattern" | sed "s|^|$file:|; s|\$|   [$what]|"
-  done
+  what=$what pattern=$pattern awk '
+    { sub(/\/\/.*/, "") }
+    $0 ~ ENVIRON["pattern"] { print FILENAME ":" FNR ":" $0 "   [" ENVIRON["what"] "]" }' "$@"
 }
 
 check_contents() {
@@ -88,10 +88,8 @@ check_names() {
 }
 
 check_lengths() {
-  sources homing storage server proto client tests | while read -r file; do
-    lines=$(wc -l <"$file")
-    [ "$lines" -le "$max_lines" ] || echo "$file has $lines lines: at most $max_lines"
-  done
+  sources homing storage server proto client tests | xargs awk -v most="$max_lines" '
+    FNR == most + 1 { print FILENAME " has more than " most " lines" }'
 }
 
 check_tree() {

@@ -15,7 +15,7 @@ quietly() {
   "$@" >"$log" 2>&1 </dev/null || { tail -n 200 "$log" >&2; exit 1; }
 }
 echo "Building preset $preset (log: build/$preset-build.log)"
-quietly configure cmake --preset "$preset"
+quietly configure cmake --preset "$preset" -DHOMING_TESTS=ON
 quietly build cmake --build --preset "$preset" -j "$jobs"
 
 log=build/$preset-test.log

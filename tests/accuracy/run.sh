@@ -32,7 +32,7 @@ build=${HOMING_BUILD:-$root/build/dev}
 mkdir -p build "$pictures"
 if [ -z "${HOMING_BUILD:-}" ]; then
   sh deploy/install.sh build client test
-  { cmake --preset dev && cmake --build --preset dev --target homing-server homing homing_accuracy -j "$(nproc)"; } \
+  { cmake --preset dev -DHOMING_TESTS=ON && cmake --build --preset dev --target homing-server homing homing_accuracy -j "$(nproc)"; } \
     >build/accuracy-build.log 2>&1 </dev/null || { tail -n 50 build/accuracy-build.log >&2; exit 1; }
 fi
 

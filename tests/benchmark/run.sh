@@ -23,7 +23,7 @@ build=${HOMING_BUILD:-$root/build/dev}
 mkdir -p build/performance/images
 if [ -z "${HOMING_BUILD:-}" ]; then
   sh deploy/install.sh build client test benchmark
-  { cmake --preset dev && cmake --build --preset dev --target homing-server homing homing_benchmark -j "$(nproc)"; } \
+  { cmake --preset dev -DHOMING_TESTS=ON && cmake --build --preset dev --target homing-server homing homing_benchmark -j "$(nproc)"; } \
     >build/performance/build.log 2>&1 </dev/null || { tail -n 50 build/performance/build.log >&2; exit 1; }
 fi
 

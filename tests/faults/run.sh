@@ -8,7 +8,8 @@ preset=${HOMING_PRESET:-dev}
 mkdir -p build
 log=build/$preset-faults.log
 {
-  [ -f "build/$preset/CMakeCache.txt" ] || { sh deploy/install.sh build client test && cmake --preset "$preset"; }
+  sh deploy/install.sh build client test
+  cmake --preset "$preset" -DHOMING_TESTS=ON
   cmake --build --preset "$preset" -j "$(nproc)" --target homing-server homing_faults faulty_disk
 } >"$log" 2>&1 </dev/null || { tail -n 100 "$log" >&2; exit 1; }
 build=build/$preset
