@@ -1,7 +1,6 @@
 #include "tests/integration/cli_fixture.h"
 
 #include <signal.h>
-#include <unistd.h>
 
 #include <fstream>
 #include <sstream>
@@ -20,19 +19,6 @@ std::vector<nlohmann::json> Ran::Json() const {
     EXPECT_TRUE(objects.back().is_object()) << line;
   }
   return objects;
-}
-
-CliTest::CliTest() {
-  const auto* info = ::testing::UnitTest::GetInstance()->current_test_info();
-  folder_ = std::filesystem::temp_directory_path() /
-            ("homing_cli_" + std::to_string(::getpid()) + "_" + info->name());
-  std::filesystem::remove_all(folder_);
-  std::filesystem::create_directories(folder_);
-}
-
-CliTest::~CliTest() {
-  server_.reset();
-  std::filesystem::remove_all(folder_);
 }
 
 void CliTest::StartServer(const std::string& database, const std::vector<std::string>& more) {

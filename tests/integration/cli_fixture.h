@@ -4,13 +4,13 @@
 
 #include <gtest/gtest.h>
 
-#include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "tests/integration/program.h"
+#include "tests/support/temporary_folder.h"
 
 namespace homing {
 
@@ -27,9 +27,6 @@ struct Ran {
 
 class CliTest : public ::testing::Test {
  protected:
-  CliTest();
-  ~CliTest() override;
-
   // Starts the server on `database` (a name in the test's folder); the first time on a port of its
   // choice, later on the same one. `more`: further arguments of it.
   void StartServer(const std::string& database = "homing.db",
@@ -43,9 +40,10 @@ class CliTest : public ::testing::Test {
   static Ran Run(const std::vector<std::string>& command);
   // The exported file's bytes.
   std::string Export(const std::string& journey) const;
-  std::string Path(const std::string& name) const { return (folder_ / name).string(); }
+  std::string Path(const std::string& name) const { return folder_.File(name); }
 
-  std::filesystem::path folder_;
+  // Gone after the server.
+  TemporaryFolder folder_;
   std::string address_;
   std::unique_ptr<Program> server_;
 };

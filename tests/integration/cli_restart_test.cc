@@ -9,14 +9,30 @@ namespace {
 
 using ::testing::HasSubstr;
 
-constexpr char kScene[] = "sim:street,length=16";
 // Observations answered before the blow.
 constexpr std::size_t kAnswered = 25;
 
-class CliRestartTest : public CliTest, public ::testing::WithParamInterface<std::string> {
+// A drive past a street, drawn once for all tests of this program.
+class CliDriveTest : public CliTest {
+ protected:
+  static void SetUpTestSuite() {
+    if (drive_ != nullptr) return;
+    drive_ = std::make_unique<TemporaryFolder>();
+    const Ran ran = Run({HOMING_PROGRAM, "simulate", "--scene", "street,length=16", "--out",
+                         drive_->File("drive")});
+    ASSERT_EQ(ran.code, 0) << ran.errors;
+  }
+  static std::string Left() { return drive_->File("drive/left"); }
+  static std::string Right() { return drive_->File("drive/right"); }
+
+ private:
+  static inline std::unique_ptr<TemporaryFolder> drive_;
+};
+
+class CliRestartTest : public CliDriveTest, public ::testing::WithParamInterface<std::string> {
  protected:
   std::vector<std::string> Record() const {
-    return Command({"record", "--json", "--journey", kJourney, "--left", kScene, "--right", kScene,
+    return Command({"record", "--json", "--journey", kJourney, "--left", Left(), "--right", Right(),
                     "--send", GetParam(), "--writer", "robot-a", "--window", "8"});
   }
   static void ReadAnswers(Program& program, std::size_t count) {
@@ -85,7 +101,7 @@ TEST_P(CliRestartTest, LocalizingGoesOnWhenTheServerIsKilled) {
   StartServer();
   ASSERT_EQ(Run(Record()).code, 0);
   Program localize(
-      Command({"localize", "--json", "--journey", kJourney, "--left", kScene, "--right", kScene,
+      Command({"localize", "--json", "--journey", kJourney, "--left", Left(), "--right", Right(),
                "--travel", "same", "--send", GetParam(), "--window", "8"}));
   ReadAnswers(localize, kAnswered);
   KillServer();
@@ -97,13 +113,13 @@ TEST_P(CliRestartTest, LocalizingGoesOnWhenTheServerIsKilled) {
   }
 }
 
-class CliSendTest : public CliTest {};
+class CliSendTest : public CliDriveTest {};
 
 TEST_F(CliSendTest, FramesAndFlowGiveTheSameMap) {
   StartServer();
   for (const char* send : {"frames", "flow"}) {
     const Ran ran = Homing({"record", "--journey", std::string("robots/a/journeys/") + send,
-                            "--left", kScene, "--right", kScene, "--send", send});
+                            "--left", Left(), "--right", Right(), "--send", send});
     ASSERT_EQ(ran.code, 0) << ran.errors;
   }
   EXPECT_TRUE(Export("robots/a/journeys/frames") == Export("robots/a/journeys/flow"))
