@@ -70,18 +70,21 @@ void PathOffsets::Grow(std::int64_t step_count) {
 OffsetValues PathOffsets::Learn(std::size_t first, std::span<const OffsetValues> fits,
                                 const std::array<bool, kPathOffsets.size()>& tried) {
   OffsetValues all{};
-  std::vector<OffsetValues> about(stretches_.size() + 2, OffsetValues{});
+  // Of the stretches that the robot may be in next, from the one before `first` on.
+  std::vector<OffsetValues> about(fits.size() + 2, OffsetValues{});
   for (std::size_t i = 0; i < fits.size(); ++i) {
     const OffsetValues mass = MassThatFits(stretches_[first + i], fits[i], tried);
     for (std::size_t offset = 0; offset < mass.size(); ++offset) {
       all[offset] += mass[offset];
       for (std::size_t next = 0; next < 3; ++next) {
-        about[first + i + next][offset] += mass[offset];
+        about[i + next][offset] += mass[offset];
       }
     }
   }
-  for (std::size_t stretch = 0; stretch < stretches_.size(); ++stretch) {
-    stretches_[stretch] = Mix(about[stretch + 1]);
+  std::ranges::fill(stretches_, Prior());
+  for (std::size_t i = first == 0 ? 1 : 0; i < about.size(); ++i) {
+    const std::size_t stretch = first + i - 1;
+    if (stretch < stretches_.size()) stretches_[stretch] = Mix(about[i]);
   }
   return all;
 }
