@@ -9,29 +9,11 @@ namespace {
 
 // What a side says on a foreign route, logarithm: the best of many steps looks good.
 constexpr double kFirstForeignEvidence = 0.57;
-constexpr double kForeignEvidence = 0.175;
+constexpr double kForeignEvidence = 0.205;
 // Stored profiles that tell how far away those of other places are; at most twice as many.
 constexpr std::int64_t kSamples = 256;
 // A less probable offset is tried only now and then, once the place is known.
 constexpr double kLeastOffset = 0.02;
-// Deviation of the offset from the outbound path, and the probability a step of another one.
-constexpr double kOffsetDeviation = 0.2;
-constexpr double kOffsetChange = 0.15;
-
-const std::array<double, kPathOffsets.size()>& OffsetPrior() {
-  static const auto prior = [] {
-    std::array<double, kPathOffsets.size()> all{};
-    for (std::size_t i = 0; i < all.size(); ++i) {
-      all[i] = std::exp(-0.5 * std::pow(kPathOffsets[i] / kOffsetDeviation, 2));
-    }
-    const double sum = std::accumulate(all.begin(), all.end(), 0.0);
-    for (double& value : all) {
-      value /= sum;
-    }
-    return all;
-  }();
-  return prior;
-}
 
 bool HasProfiles(const JourneyRef& journey, std::size_t side) {
   return !journey.map->profiles(Side{static_cast<int>(side)}).empty();
@@ -39,7 +21,7 @@ bool HasProfiles(const JourneyRef& journey, std::size_t side) {
 
 }  // namespace
 
-ProfileLikelihood::ProfileLikelihood() : offsets_(OffsetPrior()) {
+ProfileLikelihood::ProfileLikelihood() : anywhere_(PathOffsets::Prior()) {
   for (std::size_t view = 0; view < kViews; ++view) {
     covered_[view] = CoveredCells(MagnificationOf(view));
   }
@@ -53,6 +35,10 @@ bool ProfileLikelihood::CanCompare(std::span<const JourneyRef> journeys, const S
 
 void ProfileLikelihood::Compute(std::span<const JourneyRef> journeys, const SeenProfiles& seen,
                                 std::span<const StepMass> predicted) {
+  offsets_.resize(journeys.size());
+  for (std::size_t i = 0; i < journeys.size(); ++i) {
+    offsets_[i].Grow(journeys[i].map->step_count());
+  }
   Choose(journeys, predicted);
   for (std::size_t side = 0; side < seen.size(); ++side) {
     compared_[side] =
@@ -76,7 +62,7 @@ void ProfileLikelihood::Choose(std::span<const JourneyRef> journeys,
   }
   const auto in_turn = static_cast<std::size_t>(instants_) % kViews;
   for (std::size_t offset = 0; offset < kViews; ++offset) {
-    chosen_[offset] = all || offsets_[offset] >= kLeastOffset || offset == in_turn;
+    chosen_[offset] = all || anywhere_[offset] >= kLeastOffset || offset == in_turn;
   }
 }
 
@@ -133,50 +119,63 @@ void ProfileLikelihood::Multiply(std::size_t side, std::size_t view, std::size_t
   }
 }
 
-// Each step's ratio is the mean over the offsets.
+float ProfileLikelihood::WeightOf(std::size_t offset, std::size_t journey,
+                                  std::size_t stretch) const {
+  const OffsetValues& believed = offsets_[journey].of(stretch);
+  double tried = 0;
+  for (std::size_t i = 0; i < kViews; ++i) {
+    tried += chosen_[i] ? believed[i] : 0;
+  }
+  return static_cast<float>(believed[offset] / tried);
+}
+
+void ProfileLikelihood::AddOffset(std::size_t offset, std::size_t journey,
+                                  const StepMass& predicted) {
+  std::vector<float>& likelihoods = likelihoods_[journey];
+  const auto first = static_cast<std::size_t>(predicted.first);
+  constexpr auto kStretch = static_cast<std::size_t>(PathOffsets::kStretch);
+  for (std::size_t i = 0; i < fits_[journey].size(); ++i) {
+    const std::size_t stretch = first_stretch_[journey] + i;
+    const float weight = WeightOf(offset, journey, stretch);
+    const std::size_t begin = std::max(first, stretch * kStretch) - first;
+    const std::size_t end = std::min(first + factors_.size(), (stretch + 1) * kStretch) - first;
+    float fit = 0;
+    for (std::size_t step = begin; step < end; ++step) {
+      likelihoods[step] += weight * factors_[step];
+      fit += predicted.mass[step] * factors_[step];
+    }
+    fits_[journey][i][offset] = double{fit};
+    mean_fit_ += double{weight} * double{fit};
+  }
+}
+
+// Each step's ratio is the mean over the offsets, as they are believed there.
 void ProfileLikelihood::Weigh(std::span<const StepMass> predicted) {
   likelihoods_.resize(predicted.size());
-  double chosen = 0;
+  fits_.resize(predicted.size());
+  first_stretch_.resize(predicted.size());
+  mean_fit_ = 0;
   double mass = 0;
   for (std::size_t i = 0; i < predicted.size(); ++i) {
+    const std::int64_t first = predicted[i].first;
+    const std::int64_t end = first + std::ssize(predicted[i].mass);
     likelihoods_[i].assign(predicted[i].mass.size(), 0);
+    first_stretch_[i] = static_cast<std::size_t>(first / PathOffsets::kStretch);
+    fits_[i].assign(PathOffsets::StretchesOf(end) - first_stretch_[i], OffsetValues{});
     mass += predicted[i].Sum();
-  }
-  for (std::size_t offset = 0; offset < kViews; ++offset) {
-    chosen += chosen_[offset] ? offsets_[offset] : 0;
-  }
-  fits_ = {};
-  for (std::size_t offset = 0; offset < kViews; ++offset) {
-    if (!chosen_[offset]) continue;
-    const auto weight = static_cast<float>(offsets_[offset] / chosen);
-    for (std::size_t i = 0; i < predicted.size(); ++i) {
+    for (std::size_t offset = 0; offset < kViews; ++offset) {
+      if (!chosen_[offset]) continue;
       factors_.assign(predicted[i].mass.size(), 1);
       for (std::size_t side = 0; side < compared_.size(); ++side) {
         if (compared_[side]) Multiply(side, ViewOf(side, offset), i, factors_);
       }
-      float fit = 0;
-      for (std::size_t step = 0; step < factors_.size(); ++step) {
-        likelihoods_[i][step] += weight * factors_[step];
-        fit += predicted[i].mass[step] * factors_[step];
-      }
-      fits_[offset] += double{fit} / mass;
+      AddOffset(offset, i, predicted[i]);
     }
   }
+  mean_fit_ /= mass;
 }
 
-double ProfileLikelihood::MeanFit() const {
-  double fit = 0;
-  double weight = 0;
-  for (std::size_t offset = 0; offset < kViews; ++offset) {
-    if (chosen_[offset]) {
-      fit += offsets_[offset] * fits_[offset];
-      weight += offsets_[offset];
-    }
-  }
-  return fit / weight;
-}
-
-double ProfileLikelihood::LogFit() const { return std::log(std::max(MeanFit(), 1e-30)) / sides(); }
+double ProfileLikelihood::LogFit() const { return std::log(std::max(mean_fit_, 1e-30)) / sides(); }
 
 double ProfileLikelihood::OffRoute() const {
   if (instants_ == 0) {
@@ -189,19 +188,16 @@ double ProfileLikelihood::OffRoute() const {
   return kForeignEvidence * weight / sides();
 }
 
-// An offset under which the believed steps fit gains.
+// An offset under which the believed steps fit gains, there.
 void ProfileLikelihood::Learn() {
-  const double mean = MeanFit();
-  double sum = 0;
-  for (std::size_t offset = 0; offset < kViews; ++offset) {
-    if (chosen_[offset] && mean > 0) offsets_[offset] *= fits_[offset] / mean;
-    sum += offsets_[offset];
+  OffsetValues mass{};
+  for (std::size_t i = 0; i < offsets_.size(); ++i) {
+    const OffsetValues of_journey = offsets_[i].Learn(first_stretch_[i], fits_[i], chosen_);
+    for (std::size_t offset = 0; offset < kViews; ++offset) {
+      mass[offset] += of_journey[offset];
+    }
   }
-  for (std::size_t offset = 0; offset < kViews; ++offset) {
-    offsets_[offset] = sum > 0 ? (1 - kOffsetChange) * offsets_[offset] / sum +
-                                     kOffsetChange * OffsetPrior()[offset]
-                               : OffsetPrior()[offset];
-  }
+  anywhere_ = PathOffsets::Mix(mass);
   ++instants_;
 }
 

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "homing/localization/matcher.h"
+#include "homing/localization/path_offsets.h"
 #include "homing/localization/profile_distance.h"
 #include "homing/localization/profile_evidence.h"
 #include "homing/localization/profile_views.h"
@@ -54,7 +55,10 @@ class ProfileLikelihood {
   void Multiply(std::size_t side, std::size_t view, std::size_t journey,
                 std::vector<float>& factors) const;
   void Weigh(std::span<const StepMass> predicted);
-  double MeanFit() const;
+  // Adds what `factors_` say of one offset to a journey's likelihoods and fits.
+  void AddOffset(std::size_t offset, std::size_t journey, const StepMass& predicted);
+  // Probability of the offset if the robot is in the stretch, of those that are tried.
+  float WeightOf(std::size_t offset, std::size_t journey, std::size_t stretch) const;
 
   std::array<CellMask, kViews> covered_;
   std::array<std::array<Distances, kViews>, 2> distances_;
@@ -66,10 +70,16 @@ class ProfileLikelihood {
   std::array<bool, kViews> chosen_{};
   // Instants compared before this one.
   std::int64_t instants_ = 0;
-  // Probability of each offset from the outbound path.
-  std::array<double, kViews> offsets_{};
-  // How well the predicted steps fit under each.
-  std::array<double, kViews> fits_{};
+  // By journey.
+  std::vector<PathOffsets> offsets_;
+  // Probability of each offset, wherever the robot is.
+  OffsetValues anywhere_;
+  // By journey and stretch that holds a predicted step: predicted mass times factor.
+  std::vector<std::vector<OffsetValues>> fits_;
+  // By journey: the first of them.
+  std::vector<std::size_t> first_stretch_;
+  // Mean over the predicted mass.
+  double mean_fit_ = 0;
   std::vector<FlowProfile> sample_;
   std::vector<std::uint16_t> sample_distances_;
   std::vector<float> factors_;

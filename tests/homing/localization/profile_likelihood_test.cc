@@ -98,6 +98,19 @@ TEST_F(ProfileLikelihoodTest, LearnsThatTheRobotIsNearer) {
   EXPECT_GT(See(Nearer(fields_[20], 1.35F))[20], 1.2F * at_first);
 }
 
+TEST_F(ProfileLikelihoodTest, WhatIsLearntAtOnePlaceIsNotExpectedAtAFarOne) {
+  predicted_.mass.assign(kMapSteps, 0);
+  predicted_.mass[5] = 1;
+  See(fields_[5]);
+  likelihood_.Learn();
+  const float before = See(fields_[50])[50];
+  for (int i = 0; i < 10; ++i) {
+    See(Nearer(fields_[5], 1.35F));
+    likelihood_.Learn();
+  }
+  EXPECT_FLOAT_EQ(See(fields_[50])[50], before);
+}
+
 TEST_F(ProfileLikelihoodTest, TheOtherSideSaysNothing) {
   SeenProfiles seen;
   seen[1].emplace(fields_[3]);
