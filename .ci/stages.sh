@@ -71,8 +71,14 @@ stage_tidy() {
   run-clang-tidy -quiet -p build/tidy -j "$jobs" -extra-arg=-Wno-unknown-warning-option '^(?!.*\.pb\.cc$)'
 }
 
-# Kills, power cuts, full and failing disks: few of each.
-stage_faults() { sh tests/faults/run.sh --quick; }
+# Kills, power cuts, full and failing disks: few of each. Goes on from the build of the tests.
+stage_faults() {
+  if [ -d "$scratch/root/homing" ]; then
+    in_bare_root sh /homing/tests/faults/run.sh --quick
+  else
+    sh tests/faults/run.sh --quick
+  fi
+}
 
 stage_fuzz() { sh tests/fuzz/run.sh 30; }
 

@@ -1,6 +1,7 @@
 #!/bin/sh
 # What the server must live through, a line each: name figure bound ok|short. Exit code 1 if any is short.
 # usage: sh tests/faults/run.sh [--quick] [--soak MINUTES] [--only kill|power|full|bad|leaks|soak] [--seed N]
+# Fuzzing has lines of the same form: sh tests/fuzz/run.sh.
 # HOMING_PRESET (default dev) names the CMake preset. As root the full disk is a real one, of 24 MiB.
 set -eu
 cd "$(dirname "$0")/../.."
@@ -10,7 +11,7 @@ log=build/$preset-faults.log
 {
   sh deploy/install.sh build client test
   cmake --preset "$preset" -DHOMING_TESTS=ON
-  cmake --build --preset "$preset" -j "$(nproc)" --target homing-server homing_faults faulty_disk
+  cmake --build --preset "$preset" -j "$(nproc)" --target homing-server homing_faults faulty_disk server_test
 } >"$log" 2>&1 </dev/null || { tail -n 100 "$log" >&2; exit 1; }
 build=build/$preset
 set -- "$build/tests/faults/homing_faults" "$PWD/$build/server/homing-server" \
@@ -31,6 +32,19 @@ if command -v systemd-analyze >/dev/null; then
   echo "systemd_exposure ${exposure:-unknown} <=2.0 $verdict"
   [ "$verdict" = ok ] || status=1
 fi
+# Who is let in: role x method x owner, and callers with bad certificates or none.
+case " $* " in
+  *' --only '*) ;;
+  *)
+    "$build/tests/server/server_test" --gtest_filter='*AccessTableTest*:TlsTest*' >"build/$preset-roles.log" 2>&1 ||
+      tail -n 50 "build/$preset-roles.log" >&2
+    tests=$(grep -c '^\[       OK \]' "build/$preset-roles.log" || true)
+    asked=$(sed -n 's/^\[==========\] Running \([0-9]*\) tests.*/\1/p' "build/$preset-roles.log")
+    verdict=$([ "$tests" -gt 0 ] && [ "$tests" -eq "${asked:-0}" ] && echo ok || echo short)
+    echo "roles_and_refusals $tests >=${asked:-1} $verdict"
+    [ "$verdict" = ok ] || status=1
+    ;;
+esac
 if [ "$(id -u)" -eq 0 ] && unshare --mount true 2>/dev/null; then
   small=$(mktemp -d)
   trap 'rmdir "$small"' EXIT

@@ -1,7 +1,9 @@
 // Role x method x owner over a real socket: who is let in, and with which code the others are not.
 #include <google/protobuf/descriptor.h>
 
+#include <chrono>
 #include <fstream>
+#include <thread>
 
 #include "server/access/role.h"
 #include "server/access/token_book.h"
@@ -54,12 +56,14 @@ constexpr Row kRows[] = {
 
 char LetterOf(Right right) { return "WDSMLTmB"[static_cast<std::size_t>(right)]; }
 
-class AccessTableTest : public ServerTest {
+// Without and with the index of all journeys, which must not know more than the scan.
+class AccessTableTest : public ServerTest, public ::testing::WithParamInterface<bool> {
  protected:
   AccessTableTest() {
     options_.tokens = folder_.File("tokens.toml");
     options_.roles = folder_.File("roles.toml");
     options_.reload_s = 1;
+    options_.all_journeys_index = GetParam();
     std::ofstream(options_.roles) << "[roles]\n\"operators/chief\" = \"admin\"\n"
                                      "\"robots/guide\" = \"localise-only\"\n"
                                      "\"robots/banned\" = \"none\"\n";
@@ -68,10 +72,19 @@ class AccessTableTest : public ServerTest {
           "robots/guide", "robots/banned"}) {
       EXPECT_THAT(AddToken(options_.tokens, identity, HashToken(TokenOf(identity))), IsOk());
     }
-    StartServer();
-    channel_ = grpc::CreateChannel(server_->address(), grpc::InsecureChannelCredentials());
+    StartGuarded();
     for (const char* journey : {kPrivate, kListed, kFleet, kGuides}) {
       EXPECT_THAT(Remake(journey), IsGrpcOk());
+    }
+  }
+
+  // Ready to search all journeys.
+  void StartGuarded() {
+    StartServer();
+    channel_ = grpc::CreateChannel(server_->address(), grpc::InsecureChannelCredentials());
+    const auto search = [this] { return As("operators/chief").Match("robots/-/journeys/-"); };
+    while (search().error_code() == grpc::StatusCode::UNAVAILABLE) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
     }
   }
 
@@ -94,6 +107,10 @@ class AccessTableTest : public ServerTest {
   std::shared_ptr<grpc::Channel> channel_;
 };
 
+INSTANTIATE_TEST_SUITE_P(Index, AccessTableTest, ::testing::Bool(), [](const auto& index) {
+  return std::string(index.param ? "Searched" : "Scanned");
+});
+
 // A list is of what may be seen: whoever has that right of anything may ask.
 bool IsAllowed(const Row& row, const RpcTraits& traits) {
   if (traits.rpc == Rpc::kListJourneys) {
@@ -102,7 +119,7 @@ bool IsAllowed(const Row& row, const RpcTraits& traits) {
   return std::string(row.rights).find(LetterOf(traits.right)) != std::string::npos;
 }
 
-TEST_F(AccessTableTest, EveryRoleGetsItsRightsOfEveryMethodAndNoMore) {
+TEST_P(AccessTableTest, EveryRoleGetsItsRightsOfEveryMethodAndNoMore) {
   for (const Row& row : kRows) {
     EveryRpc caller = As(row.identity);
     for (const RpcTraits& traits : kRpcs) {
@@ -121,7 +138,7 @@ TEST_F(AccessTableTest, EveryRoleGetsItsRightsOfEveryMethodAndNoMore) {
   }
 }
 
-TEST_F(AccessTableTest, ListsHoldWhatMayBeSeen) {
+TEST_P(AccessTableTest, ListsHoldWhatMayBeSeen) {
   for (const Row& row : kRows) {
     const bool sees = std::string(row.rights).find('S') != std::string::npos;
     for (const char* parent : {"robots/-", "robots/owner", "robots/guide"}) {
@@ -138,7 +155,7 @@ TEST_F(AccessTableTest, ListsHoldWhatMayBeSeen) {
   EXPECT_THAT(As("robots/reader").List("robots/-"), ElementsAre(kFleet, kListed));
 }
 
-TEST_F(AccessTableTest, AWildcardCoversWhatTheCallerMayRead) {
+TEST_P(AccessTableTest, AWildcardCoversWhatTheCallerMayRead) {
   EXPECT_THAT(As("robots/other").Localize("robots/-/journeys/-"), IsGrpcOk());
   EXPECT_THAT(As("robots/other").Match("robots/owner/journeys/-"), IsGrpcOk());
   EXPECT_THAT(As("robots/other").Localize("robots/guide/journeys/-"),
@@ -148,7 +165,7 @@ TEST_F(AccessTableTest, AWildcardCoversWhatTheCallerMayRead) {
   EXPECT_THAT(As("robots/owner").Match("robots/-/journeys/private"), IsGrpcOk());
 }
 
-TEST_F(AccessTableTest, NothingIsRecognisedOnWhatTheCallerMayNotRead) {
+TEST_P(AccessTableTest, NothingIsRecognisedOnWhatTheCallerMayNotRead) {
   const ServerOptions guarded = options_;
   options_.tokens.clear();
   options_.roles.clear();
@@ -156,8 +173,7 @@ TEST_F(AccessTableTest, NothingIsRecognisedOnWhatTheCallerMayNotRead) {
   ASSERT_THAT(Create(), IsGrpcOk());
   RecordFlow(0, 20);
   options_ = guarded;
-  StartServer();
-  channel_ = grpc::CreateChannel(server_->address(), grpc::InsecureChannelCredentials());
+  StartGuarded();
   const v1::Observation seen = RecordRequest(test::FlowAt(0, 7)).observation();
   for (const char* pattern : {"robots/-/journeys/-", "robots/r/journeys/-", "robots/-/journeys/out",
                               "robots/r/journeys/out"}) {
@@ -166,7 +182,7 @@ TEST_F(AccessTableTest, NothingIsRecognisedOnWhatTheCallerMayNotRead) {
   }
 }
 
-TEST_F(AccessTableTest, WhetherAJourneyExistsIsNotToldToThoseWhoMayNotReadIt) {
+TEST_P(AccessTableTest, WhetherAJourneyExistsIsNotToldToThoseWhoMayNotReadIt) {
   const grpc::Status there = As("robots/other").Call(Rpc::kGetJourney, kPrivate);
   const grpc::Status none =
       As("robots/other").Call(Rpc::kGetJourney, "robots/owner/journeys/privatf");
@@ -176,7 +192,7 @@ TEST_F(AccessTableTest, WhetherAJourneyExistsIsNotToldToThoseWhoMayNotReadIt) {
               GrpcStatusIs(grpc::StatusCode::NOT_FOUND, HasSubstr("none")));
 }
 
-TEST_F(AccessTableTest, WhoDoesNotSayWhoTheyAreGetsNothing) {
+TEST_P(AccessTableTest, WhoDoesNotSayWhoTheyAreGetsNothing) {
   EveryRpc nobody(channel_, "");
   EveryRpc stranger(channel_, "guess");
   EveryRpc thief(channel_, ToText(HashToken(TokenOf("operators/chief"))));
@@ -190,11 +206,11 @@ TEST_F(AccessTableTest, WhoDoesNotSayWhoTheyAreGetsNothing) {
   }
 }
 
-TEST_F(AccessTableTest, HealthIsForEveryone) {
+TEST_P(AccessTableTest, HealthIsForEveryone) {
   EXPECT_THAT(CheckHealth(server_->address(), ""), IsOk());
 }
 
-TEST_F(AccessTableTest, EveryMethodOfTheApiHasARow) {
+TEST_P(AccessTableTest, EveryMethodOfTheApiHasARow) {
   std::vector<std::string> methods;
   for (const char* name : {"homing.v1.JourneyService", "homing.v1.HomingService",
                            "homing.v1.DeviationModelService", "homing.v1.StoreService"}) {
@@ -212,7 +228,7 @@ TEST_F(AccessTableTest, EveryMethodOfTheApiHasARow) {
   EXPECT_THAT(rows, ::testing::UnorderedElementsAreArray(methods));
 }
 
-TEST_F(AccessTableTest, ATokenTakenAwayEndsTheStreamThatUsesIt) {
+TEST_P(AccessTableTest, ATokenTakenAwayEndsTheStreamThatUsesIt) {
   grpc::ClientContext context;
   context.AddMetadata("authorization", "Bearer " + TokenOf("robots/owner"));
   const auto stream = journeys_->RecordJourney(&context);
@@ -228,7 +244,7 @@ TEST_F(AccessTableTest, ATokenTakenAwayEndsTheStreamThatUsesIt) {
               GrpcStatusIs(grpc::StatusCode::UNAUTHENTICATED, HasSubstr("token")));
 }
 
-TEST_F(AccessTableTest, SecretsAreNotInTheMetrics) {
+TEST_P(AccessTableTest, SecretsAreNotInTheMetrics) {
   As("robots/owner").Call(Rpc::kGetJourney, kPrivate);
   EveryRpc(channel_, "guess").Call(Rpc::kGetJourney, kPrivate);
   const std::string text = server_->MetricsText();
