@@ -1,6 +1,6 @@
-# One target a folder: homing_library(NAME [SEPARATE] SOURCES ... DEPS ...), homing_test(NAME SOURCES ... DEPS ...).
+# One target a folder: homing_library(NAME SOURCES ... DEPS ...), homing_test(NAME SOURCES ... DEPS ...).
 # All presets compile a folder's sources eight at a time (unity build), since most of the time goes into what
-# they include. SEPARATE is for folders whose files use the same names in unnamed namespaces.
+# they include. Names in unnamed namespaces are therefore a folder's.
 include(CMakeParseArguments)
 
 # g++ 12 takes an empty std::optional for an uninitialised one when it inlines much (-O3): not an error.
@@ -11,11 +11,8 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "Clang")
 endif()
 
 function(homing_library name)
-  cmake_parse_arguments(A "SEPARATE" "" "SOURCES;DEPS" ${ARGN})
+  cmake_parse_arguments(A "" "" "SOURCES;DEPS" ${ARGN})
   add_library(${name} STATIC ${A_SOURCES})
-  if(A_SEPARATE)
-    set_target_properties(${name} PROPERTIES UNITY_BUILD OFF)
-  endif()
   target_compile_options(${name} PRIVATE ${HOMING_WARNINGS})
   target_include_directories(${name} PUBLIC ${PROJECT_SOURCE_DIR})
   target_link_libraries(${name} PUBLIC ${A_DEPS})

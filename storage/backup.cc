@@ -20,8 +20,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kBusyTimeoutMs = 5000;
-
 absl::Status Copy(Connection& from, const std::string& to) {
   HOMING_ASSIGN_OR_RETURN(const auto copy,
                           Connection::Open(to, Connection::Access::kReadWrite, kBusyTimeoutMs));

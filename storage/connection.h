@@ -16,6 +16,9 @@
 
 namespace homing::storage {
 
+// For programs beside the server.
+inline constexpr int kBusyTimeoutMs = 5000;
+
 // One use of a prepared statement; made ready for the next use at its end. Its members throw
 // SQLite::Exception and are used only in the body of a transaction.
 class Query {

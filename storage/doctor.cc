@@ -19,7 +19,6 @@
 namespace homing::storage {
 namespace {
 
-constexpr int kBusyTimeoutMs = 5000;
 constexpr int kMostProblems = 100;
 
 // Each may end early in a damaged file: what one does not reach, another may.

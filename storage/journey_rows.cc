@@ -10,7 +10,7 @@
 namespace homing::storage {
 namespace {
 
-constexpr char kInsert[] =
+constexpr char kInsertJourney[] =
     "INSERT INTO journeys (name, state, writer_id, readers, input, next_sequence, create_time_ns,"
     " start_time_ns, end_time_ns, step_count, landmark_count, fingerprint_count, settings)"
     " VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?) ON CONFLICT (name) DO NOTHING RETURNING journey_id";
@@ -19,10 +19,10 @@ constexpr char kInsert[] =
   "journey_id, name, state, writer_id, readers, input, next_sequence, create_time_ns," \
   " start_time_ns, end_time_ns, step_count, landmark_count, fingerprint_count, settings"
 
-constexpr char kFind[] = "SELECT " HOMING_JOURNEY_COLUMNS " FROM journeys WHERE name = ?";
-constexpr char kList[] = "SELECT " HOMING_JOURNEY_COLUMNS
-                         " FROM journeys WHERE name > ? AND name >= ? AND name < ?"
-                         " ORDER BY name LIMIT ?";
+constexpr char kFindJourney[] = "SELECT " HOMING_JOURNEY_COLUMNS " FROM journeys WHERE name = ?";
+constexpr char kListJourneys[] = "SELECT " HOMING_JOURNEY_COLUMNS
+                                 " FROM journeys WHERE name > ? AND name >= ? AND name < ?"
+                                 " ORDER BY name LIMIT ?";
 constexpr char kDelete[] = "DELETE FROM journeys WHERE name = ?";
 constexpr char kSetState[] = "UPDATE journeys SET state = ? WHERE name = ?";
 constexpr char kSetWriter[] = "UPDATE journeys SET writer_id = ? WHERE name = ?";
@@ -30,7 +30,7 @@ constexpr char kSetWriter[] = "UPDATE journeys SET writer_id = ? WHERE name = ?"
 // Above every name that begins with a prefix: no UTF-8 text holds this byte.
 constexpr char kAfterAll[] = "\xff";
 
-absl::StatusOr<JourneyRow> ReadRow(Query& query) {
+absl::StatusOr<JourneyRow> ReadJourneyRow(Query& query) {
   JourneyRow row;
   JourneyRecord& record = row.record;
   row.id = query.Integer(0);
@@ -61,11 +61,11 @@ absl::Status JourneyNotFound(const std::string& name) {
 }
 
 absl::StatusOr<std::int64_t> InsertJourney(Connection& connection, const JourneyRecord& record) {
-  Query query = connection.Prepare(kInsert, record.name, Word(record.state), record.writer_id,
-                                   ToJson(record.readers), Word(record.input), record.next_sequence,
-                                   record.create_time_ns, record.start_time_ns, record.end_time_ns,
-                                   record.step_count, record.landmark_count,
-                                   record.fingerprint_count, ToJson(record.settings));
+  Query query = connection.Prepare(
+      kInsertJourney, record.name, Word(record.state), record.writer_id, ToJson(record.readers),
+      Word(record.input), record.next_sequence, record.create_time_ns, record.start_time_ns,
+      record.end_time_ns, record.step_count, record.landmark_count, record.fingerprint_count,
+      ToJson(record.settings));
   if (!query.Next()) {
     return absl::AlreadyExistsError(absl::StrCat("journey '", record.name, "' already exists"));
   }
@@ -73,19 +73,19 @@ absl::StatusOr<std::int64_t> InsertJourney(Connection& connection, const Journey
 }
 
 absl::StatusOr<JourneyRow> FindJourney(Connection& connection, const std::string& name) {
-  Query query = connection.Prepare(kFind, name);
+  Query query = connection.Prepare(kFindJourney, name);
   if (!query.Next()) return JourneyNotFound(name);
-  return ReadRow(query);
+  return ReadJourneyRow(query);
 }
 
 absl::StatusOr<std::vector<JourneyRecord>> ListJourneyRows(Connection& connection,
                                                            const std::string& prefix,
                                                            const std::string& after, int limit) {
   std::vector<JourneyRecord> records;
-  Query query =
-      connection.Prepare(kList, after, prefix, absl::StrCat(prefix, kAfterAll), std::max(limit, 0));
+  Query query = connection.Prepare(kListJourneys, after, prefix, absl::StrCat(prefix, kAfterAll),
+                                   std::max(limit, 0));
   while (query.Next()) {
-    HOMING_ASSIGN_OR_RETURN(JourneyRow row, ReadRow(query));
+    HOMING_ASSIGN_OR_RETURN(JourneyRow row, ReadJourneyRow(query));
     records.push_back(std::move(row.record));
   }
   return records;

@@ -131,6 +131,13 @@ absl::StatusOr<JourneyMap> ReadMap(Connection& connection, const JourneyRow& jou
   return map;
 }
 
+void InsertFingerprint(Connection& connection, std::int64_t id, const Fingerprint& fingerprint) {
+  connection
+      .Prepare(kInsertFingerprint, id, fingerprint.landmark, double{fingerprint.x},
+               double{fingerprint.y}, fingerprint.count)
+      .Run();
+}
+
 void WriteMap(Connection& connection, std::int64_t journey_id, const JourneyMap& map) {
   int number = 0;
   for (const Landmark& landmark : map.landmarks()) {
@@ -139,11 +146,7 @@ void WriteMap(Connection& connection, std::int64_t journey_id, const JourneyMap&
   for (std::int64_t step = 0; step < map.step_count(); ++step) {
     int index = 0;
     for (const Fingerprint& fingerprint : map.fingerprints(step)) {
-      connection
-          .Prepare(kInsertFingerprint, FingerprintId(journey_id, step, index++),
-                   fingerprint.landmark, double{fingerprint.x}, double{fingerprint.y},
-                   fingerprint.count)
-          .Run();
+      InsertFingerprint(connection, FingerprintId(journey_id, step, index++), fingerprint);
     }
   }
   for (const Side side : {Side::kLeft, Side::kRight}) {

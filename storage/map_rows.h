@@ -12,6 +12,8 @@ namespace homing::storage {
 
 // DATA_LOSS: the rows contradict each other.
 absl::StatusOr<JourneyMap> ReadMap(Connection& connection, const JourneyRow& journey);
+// One row of `fingerprints`; `id` by FingerprintId.
+void InsertFingerprint(Connection& connection, std::int64_t id, const Fingerprint& fingerprint);
 // All rows of a journey that has none yet.
 void WriteMap(Connection& connection, std::int64_t journey_id, const JourneyMap& map);
 

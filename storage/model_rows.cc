@@ -12,13 +12,14 @@ namespace {
 #define HOMING_MODEL_COLUMNS \
   "name, mu, sigma, observations, ks_distance, width, height, training, create_time_ns"
 
-constexpr char kInsert[] = "INSERT INTO deviation_models (" HOMING_MODEL_COLUMNS
-                           ") VALUES (?,?,?,?,?,?,?,?,?) ON CONFLICT DO NOTHING";
-constexpr char kFind[] = "SELECT " HOMING_MODEL_COLUMNS " FROM deviation_models WHERE name = ?";
-constexpr char kList[] =
+constexpr char kInsertModel[] = "INSERT INTO deviation_models (" HOMING_MODEL_COLUMNS
+                                ") VALUES (?,?,?,?,?,?,?,?,?) ON CONFLICT DO NOTHING";
+constexpr char kFindModel[] =
+    "SELECT " HOMING_MODEL_COLUMNS " FROM deviation_models WHERE name = ?";
+constexpr char kListModels[] =
     "SELECT " HOMING_MODEL_COLUMNS " FROM deviation_models WHERE name > ? ORDER BY name LIMIT ?";
 
-absl::StatusOr<StoredModel> ReadRow(Query& query) {
+absl::StatusOr<StoredModel> ReadModelRow(Query& query) {
   StoredModel stored;
   stored.name = query.Text(0);
   stored.model.mu = query.Real(1);
@@ -37,9 +38,9 @@ absl::StatusOr<StoredModel> ReadRow(Query& query) {
 absl::Status InsertModel(Connection& connection, const StoredModel& model) {
   const int inserted =
       connection
-          .Prepare(kInsert, model.name, model.model.mu, model.model.sigma, model.model.observations,
-                   model.model.ks_distance, model.model.width, model.model.height,
-                   ToJson(model.training), model.create_time_ns)
+          .Prepare(kInsertModel, model.name, model.model.mu, model.model.sigma,
+                   model.model.observations, model.model.ks_distance, model.model.width,
+                   model.model.height, ToJson(model.training), model.create_time_ns)
           .Run();
   if (inserted > 0) return absl::OkStatus();
   return absl::AlreadyExistsError(
@@ -47,19 +48,19 @@ absl::Status InsertModel(Connection& connection, const StoredModel& model) {
 }
 
 absl::StatusOr<StoredModel> FindModel(Connection& connection, const std::string& name) {
-  Query query = connection.Prepare(kFind, name);
+  Query query = connection.Prepare(kFindModel, name);
   if (!query.Next()) {
     return absl::NotFoundError(absl::StrCat("deviation model '", name, "' does not exist"));
   }
-  return ReadRow(query);
+  return ReadModelRow(query);
 }
 
 absl::StatusOr<std::vector<StoredModel>> ListModelRows(Connection& connection,
                                                        const std::string& after, int limit) {
   std::vector<StoredModel> models;
-  Query query = connection.Prepare(kList, after, std::max(limit, 0));
+  Query query = connection.Prepare(kListModels, after, std::max(limit, 0));
   while (query.Next()) {
-    HOMING_ASSIGN_OR_RETURN(StoredModel model, ReadRow(query));
+    HOMING_ASSIGN_OR_RETURN(StoredModel model, ReadModelRow(query));
     models.push_back(std::move(model));
   }
   return models;

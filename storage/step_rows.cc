@@ -9,13 +9,14 @@
 #include "homing/status_macros.h"
 #include "storage/fingerprint_id.h"
 #include "storage/journey_rows.h"
+#include "storage/map_rows.h"
 #include "storage/row_words.h"
 #include "storage/settings_json.h"
 
 namespace homing::storage {
 namespace {
 
-constexpr char kFind[] =
+constexpr char kFindActive[] =
     "SELECT journey_id, state, input, next_sequence, step_count, landmark_count FROM journeys"
     " WHERE name = ?";
 constexpr char kFindLandmark[] =
@@ -28,8 +29,6 @@ constexpr char kUpdate[] =
     " step_count = ?6, landmark_count = ?7, fingerprint_count = fingerprint_count + ?8"
     " WHERE journey_id = ?1";
 constexpr char kSetSettings[] = "UPDATE journeys SET settings = ? WHERE journey_id = ?";
-constexpr char kInsertFingerprint[] =
-    "INSERT INTO fingerprints (fingerprint_id, landmark, x, y, count) VALUES (?,?,?,?,?)";
 constexpr char kInsertLandmark[] =
     "INSERT INTO landmarks (journey_id, landmark, side, first_step, last_step, fingerprint_count,"
     " spread) VALUES (?,?,?,?,?,?,?)";
@@ -112,7 +111,7 @@ void WriteProfile(Connection& connection, std::int64_t journey_id, std::int64_t 
 
 absl::StatusOr<StepAppends::JourneyColumns*> StepAppends::Find(const std::string& name) {
   if (const auto known = journeys_.find(name); known != journeys_.end()) return &known->second;
-  Query query = connection_->Prepare(kFind, name);
+  Query query = connection_->Prepare(kFindActive, name);
   if (!query.Next()) return JourneyNotFound(name);
   JourneyColumns journey;
   journey.id = query.Integer(0);
@@ -202,10 +201,7 @@ absl::Status StepAppends::CheckStep(JourneyColumns& journey, const JourneyStep& 
 void StepAppends::AddFingerprint(JourneyColumns& journey, std::int64_t step, int index,
                                  const RecordedFingerprint& recorded) {
   const Fingerprint& fingerprint = recorded.fingerprint;
-  connection_
-      ->Prepare(kInsertFingerprint, FingerprintId(journey.id, step, index), fingerprint.landmark,
-                double{fingerprint.x}, double{fingerprint.y}, fingerprint.count)
-      .Run();
+  InsertFingerprint(*connection_, FingerprintId(journey.id, step, index), fingerprint);
   LandmarkRow& row = journey.landmarks[fingerprint.landmark];
   Landmark& landmark = row.landmark;
   if (fingerprint.landmark == journey.landmark_count) {

@@ -62,7 +62,7 @@ void Multiply(const float* smooth, const float* change, int size, float* xx, flo
 }
 
 HOMING_VECTOR_CLONES
-void Sum(const std::array<const float*, kCornerBlockPx>& rows, int size, float* sum) {
+void SumRows(const std::array<const float*, kCornerBlockPx>& rows, int size, float* sum) {
   for (int x = 0; x < size; ++x) {
     sum[x] = rows[0][x] + rows[1][x] + rows[2][x] + rows[3][x] + rows[4][x];
   }
@@ -121,7 +121,7 @@ class Window {
       const Products& from = products_[static_cast<std::size_t>(row % kCornerBlockPx)];
       rows[static_cast<std::size_t>(i)] = (from.*product).data();
     }
-    Sum(rows, image_.cols, sum->data());
+    SumRows(rows, image_.cols, sum->data());
     sum->Mirror();
   }
 

@@ -11,13 +11,6 @@
 #include "homing/flow/working_image.h"
 
 namespace homing {
-namespace {
-
-// Lucas-Kanade iterations a level, and the step below which they end, working pixels.
-constexpr int kIterations = 20;
-constexpr double kConvergencePx = 0.01;
-// Least eigenvalue of A^T A for a solution (eqs 3 to 5), OpenCV's units; corners have far more.
-constexpr double kSingular = 1e-4;
 
 // All that is kept of a frame: the pyramid of eq 1's images, with gradients, and its corners.
 struct TrackedFrame {
@@ -28,14 +21,22 @@ struct TrackedFrame {
 };
 
 // What a frame needs besides, kept from one to the next.
-struct Buffers {
+struct FlowBuffers {
   WorkingBuffers working;
   CornerBuffers corners;
   cv::Mat levels;
 };
 
+namespace {
+
+// Lucas-Kanade iterations a level, and the step below which they end, working pixels.
+constexpr int kIterations = 20;
+constexpr double kConvergencePx = 0.01;
+// Least eigenvalue of A^T A for a solution (eqs 3 to 5), OpenCV's units; corners have far more.
+constexpr double kSingular = 1e-4;
+
 // Into `frame`, whose images of the same size are used again.
-void Prepare(const cv::Mat& gray, const FlowOptions& options, Buffers* buffers,
+void Prepare(const cv::Mat& gray, const FlowOptions& options, FlowBuffers* buffers,
              TrackedFrame* frame) {
   const cv::Mat& normalized = NormalizedImage(gray, options, &buffers->working);
   frame->source_size = gray.size();
@@ -107,7 +108,7 @@ FlowField FlowBetween(const TrackedFrame& before, const TrackedFrame& now,
 
 struct FlowTracker::State {
   FlowOptions options;
-  Buffers buffers;
+  FlowBuffers buffers;
   // The last frame, if has_before; and where the next one goes.
   TrackedFrame before;
   TrackedFrame now;

@@ -5,7 +5,7 @@
 namespace homing {
 namespace {
 
-constexpr int kMaxIterations = 30;
+constexpr int kMaxSteps = 30;
 // Far below a float pixel, focal lengths being under 1e6 px.
 constexpr double kTolerance = 1e-11;
 
@@ -44,7 +44,7 @@ Eigen::Vector2d Distort(const Eigen::Vector2d& ray, const Distortion& d) {
 std::optional<Eigen::Vector2d> Undistort(const Eigen::Vector2d& shown,
                                          const Distortion& distortion) {
   Eigen::Vector2d ray = shown;
-  for (int i = 0; i < kMaxIterations; ++i) {
+  for (int i = 0; i < kMaxSteps; ++i) {
     const Eigen::Vector2d miss = Distort(ray, distortion) - shown;
     const Eigen::Matrix2d jacobian = JacobianAt(ray, distortion);
     // Not positive: beyond the fold of the model, where two rays would be shown at one point.

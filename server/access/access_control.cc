@@ -13,7 +13,7 @@
 namespace homing::server {
 namespace {
 
-constexpr std::size_t kScheme = sizeof("Bearer ") - 1;
+constexpr std::size_t kBearerSize = sizeof("Bearer ") - 1;
 
 absl::Status Unauthenticated(const char* reason, const std::string& message) {
   return WithReason(absl::UnauthenticatedError(message), {reason, {}});
@@ -77,7 +77,7 @@ absl::Status AccessControl::CheckCertificate(const std::string& chain_pem) const
 absl::StatusOr<std::string> AccessControl::IdentityOfToken(const Credentials& credentials) const {
   const std::string& header = credentials.authorizations.front();
   if (credentials.authorizations.size() > 1 ||
-      !absl::EqualsIgnoreCase(header.substr(0, kScheme), "Bearer ")) {
+      !absl::EqualsIgnoreCase(header.substr(0, kBearerSize), "Bearer ")) {
     return Unauthenticated("BAD_TOKEN", "authorization must be one \"Bearer TOKEN\"");
   }
   std::shared_ptr<const TokenBook> tokens;
@@ -85,7 +85,7 @@ absl::StatusOr<std::string> AccessControl::IdentityOfToken(const Credentials& cr
     const std::lock_guard lock(mutex_);
     tokens = tokens_;
   }
-  auto identity = tokens->Find(header.substr(kScheme));
+  auto identity = tokens->Find(header.substr(kBearerSize));
   if (!identity) {
     return Unauthenticated("BAD_TOKEN", "the token is not one of this server's");
   }

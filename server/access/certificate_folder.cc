@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string Read(const fs::path& path) {
+std::string ReadOrNothing(const fs::path& path) {
   const std::ifstream file(path, std::ios::binary);
   std::ostringstream text;
   text << file.rdbuf();
@@ -31,7 +31,8 @@ class Folder {
   Folder(const fs::path& root, int days) : root_(root), lifetime_(std::chrono::hours(24 * days)) {}
 
   absl::Status OpenAuthority() {
-    const KeyAndCertificate pem = {Read(root_ / "ca.key"), Read(root_ / "ca.pem")};
+    const KeyAndCertificate pem = {ReadOrNothing(root_ / "ca.key"),
+                                   ReadOrNothing(root_ / "ca.pem")};
     if (!pem.certificate.empty()) {
       HOMING_ASSIGN_OR_RETURN(CertificateAuthority known, CertificateAuthority::FromPem(pem));
       authority_.emplace(std::move(known));
@@ -67,7 +68,7 @@ class Folder {
     std::vector<std::string> certificates;
     for (const std::string& identity : identities) {
       HOMING_RETURN_IF_ERROR(CheckIdentity(identity, "revoke"));
-      certificates.push_back(Read(root_ / (identity + ".pem")));
+      certificates.push_back(ReadOrNothing(root_ / (identity + ".pem")));
       if (certificates.back().empty()) {
         return absl::InvalidArgumentError(
             absl::StrCat("revoke is \"", identity, "\"; the folder holds no certificate of it"));
@@ -75,7 +76,7 @@ class Folder {
     }
     const fs::path path = root_ / "crl" / "homing.pem";
     HOMING_ASSIGN_OR_RETURN(const std::string list,
-                            authority_->Revoke(Read(path), certificates, lifetime_));
+                            authority_->Revoke(ReadOrNothing(path), certificates, lifetime_));
     return WriteFile(path, list);
   }
 

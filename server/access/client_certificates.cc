@@ -5,12 +5,11 @@
 #include <openssl/x509v3.h>
 
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 #include <utility>
 
 #include "absl/strings/str_cat.h"
 #include "homing/status_macros.h"
+#include "server/access/flag_file.h"
 #include "server/session/error_reason.h"
 
 namespace homing::server {
@@ -19,24 +18,14 @@ namespace {
 // Chains remembered between two reloads; more are checked anew each time.
 constexpr std::size_t kMostKnown = 10'000;
 
-absl::Status Bad(const std::string& flag, const std::string& path, const std::string& what) {
-  return absl::InvalidArgumentError(absl::StrCat(flag, " is \"", path, "\"; ", what));
-}
-
 absl::StatusOr<OpensslPtr<STACK_OF(X509_INFO)>> ReadPem(const std::string& flag,
                                                         const std::string& path) {
-  const std::ifstream file(path, std::ios::binary);
-  std::ostringstream text;
-  text << file.rdbuf();
-  if (!file) {
-    return Bad(flag, path, "the file cannot be read");
-  }
-  const std::string pem = text.str();
+  HOMING_ASSIGN_OR_RETURN(const std::string pem, ReadFlagFile(flag, path));
   OpensslPtr<STACK_OF(X509_INFO)> items(
       PEM_X509_INFO_read_bio(ReadingBio(pem).get(), nullptr, nullptr, nullptr));
   ERR_clear_error();
   if (!items) {
-    return Bad(flag, path, "the file is not PEM");
+    return FlagFileError(flag, path, "the file is not PEM");
   }
   return items;
 }
@@ -49,7 +38,8 @@ absl::Status AddAuthorities(const std::string& path, X509_STORE* store) {
       found += X509_STORE_add_cert(store, certificate);
     }
   }
-  return found > 0 ? absl::OkStatus() : Bad("tls-client-ca", path, "it holds no certificate");
+  return found > 0 ? absl::OkStatus()
+                   : FlagFileError("tls-client-ca", path, "it holds no certificate");
 }
 
 absl::StatusOr<int> AddRevocations(const std::string& path, X509_STORE* store) {
@@ -73,7 +63,8 @@ absl::Status AddRevocationFolder(const std::string& folder, X509_STORE* store) {
     }
   }
   if (error || found == 0) {
-    return Bad("tls-crl-dir", folder, "it is no folder that holds a revocation list (PEM)");
+    return FlagFileError("tls-crl-dir", folder,
+                         "it is no folder that holds a revocation list (PEM)");
   }
   X509_STORE_set_flags(store, X509_V_FLAG_CRL_CHECK | X509_V_FLAG_CRL_CHECK_ALL);
   return absl::OkStatus();

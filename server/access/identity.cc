@@ -10,7 +10,7 @@
 namespace homing::server {
 namespace {
 
-constexpr char kScheme[] = "homing:";
+constexpr char kIdentityScheme[] = "homing:";
 constexpr char kRobots[] = "robots/";
 constexpr char kOperators[] = "operators/";
 
@@ -36,13 +36,13 @@ absl::Status CheckIdentity(const std::string& identity, const std::string& field
 absl::StatusOr<std::string> IdentityOfUris(const std::vector<std::string>& uris) {
   std::string identity;
   for (const std::string& uri : uris) {
-    if (!absl::StartsWith(uri, kScheme)) {
+    if (!absl::StartsWith(uri, kIdentityScheme)) {
       continue;
     }
     if (!identity.empty()) {
       return BadNames("names more than one identity");
     }
-    identity = std::string(absl::StripPrefix(uri, kScheme));
+    identity = std::string(absl::StripPrefix(uri, kIdentityScheme));
     if (!CheckIdentity(identity, "certificate").ok()) {
       return BadNames("names an identity of another form");
     }
@@ -53,7 +53,7 @@ absl::StatusOr<std::string> IdentityOfUris(const std::vector<std::string>& uris)
   return identity;
 }
 
-std::string UriOf(const std::string& identity) { return kScheme + identity; }
+std::string UriOf(const std::string& identity) { return kIdentityScheme + identity; }
 
 std::string RobotOf(const std::string& identity) {
   return absl::StartsWith(identity, kRobots) ? identity.substr(std::string(kRobots).size()) : "";

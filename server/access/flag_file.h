@@ -1,0 +1,21 @@
+// The files that flags name. Source: own design.
+#ifndef SERVER_ACCESS_FLAG_FILE_H_
+#define SERVER_ACCESS_FLAG_FILE_H_
+
+#include <string>
+
+#include "absl/status/status.h"
+#include "absl/status/statusor.h"
+
+namespace homing::server {
+
+// INVALID_ARGUMENT that names flag, file and what is wrong with it.
+absl::Status FlagFileError(const std::string& flag, const std::string& path,
+                           const std::string& what);
+
+// All of the file. INVALID_ARGUMENT: it cannot be read.
+absl::StatusOr<std::string> ReadFlagFile(const std::string& flag, const std::string& path);
+
+}  // namespace homing::server
+
+#endif  // SERVER_ACCESS_FLAG_FILE_H_
