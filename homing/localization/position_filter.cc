@@ -13,7 +13,7 @@ constexpr double kDirectionMargin = 0.6;
 constexpr double kNoMass = 1e-30;
 // Fitted: see docs/algorithm.md.
 constexpr MembershipRates kByProfiles = {
-    .first_weight = 2, .weight = 0.2, .least_log_odds = -5.5, .most_log_odds = 0.05};
+    .first_weight = 2, .weight = 0.2, .least_log_odds = -5.5, .most_log_odds = 0.02};
 // What not knowing where on the route, within so many steps, speaks against being on it, logarithm,
 // for one side: places of a foreign route are like some here and some there.
 constexpr double kDoubt = 0.60;

@@ -73,7 +73,8 @@ const ProfileRatio& ProfileRatio::Further(int weight) {
 
 int EvidenceWeight(std::size_t vectors) {
   const double share = std::min(1.0, static_cast<double>(vectors) / kEnoughVectors);
-  return std::max(1, static_cast<int>(std::lround(kWholeWeight * share)));
+  // Few vectors are also much the same ones in view after view: the square of their share.
+  return std::max(1, static_cast<int>(std::lround(kWholeWeight * share * share)));
 }
 
 }  // namespace homing

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <random>
 
+#include "homing/localization/position_filter.h"
 #include "homing/localization/profile_evidence.h"
 
 namespace homing {
@@ -111,6 +112,20 @@ TEST_F(ProfileLikelihoodTest, WhatIsLearntAtOnePlaceIsNotExpectedAtAFarOne) {
   EXPECT_FLOAT_EQ(See(fields_[50])[50], before);
 }
 
+// The bound of the odds: little that fits must bring the robot back.
+TEST_F(ProfileLikelihoodTest, ALongForeignWayIsHardlyMoreThanEvenOdds) {
+  std::mt19937_64 engine(11);
+  PositionFilter filter{PositionOptions{}};
+  Position position;
+  for (int i = 0; i < 100; ++i) {
+    SeenProfiles seen;
+    seen[0].emplace(RandomField(engine));
+    position = filter.Update({&ref_, 1}, Motion::kMoving, {}, seen);
+  }
+  EXPECT_EQ(position.outcome, Outcome::kUnknownPlace);
+  EXPECT_LT(position.unknown_probability, 0.507);
+}
+
 TEST_F(ProfileLikelihoodTest, TheOtherSideSaysNothing) {
   SeenProfiles seen;
   seen[1].emplace(fields_[3]);
@@ -122,7 +137,7 @@ TEST_F(ProfileLikelihoodTest, TheOtherSideSaysNothing) {
 
 TEST(EvidenceWeightTest, FewVectorsSayLittleButNeverNothing) {
   EXPECT_EQ(EvidenceWeight(0), 1);
-  EXPECT_EQ(EvidenceWeight(25), kWholeWeight / 2);
+  EXPECT_EQ(EvidenceWeight(25), kWholeWeight / 4);
   EXPECT_EQ(EvidenceWeight(50), kWholeWeight);
   EXPECT_EQ(EvidenceWeight(5000), kWholeWeight);
   const float near = -3;

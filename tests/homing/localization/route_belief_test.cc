@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <numeric>
+
 #include "homing/localization/step_window.h"
 
 namespace homing {
@@ -65,6 +68,22 @@ TEST(RouteBeliefTest, SpeedsMoveByTheirStepsOnAverage) {
     beyond += double{mass[s]};
   }
   EXPECT_LT(beyond, 0.01);
+}
+
+TEST(RouteBeliefTest, ARobotSeldomChangesItsSpeed) {
+  RouteBelief belief = PeakAt(800, 100);
+  for (int i = 0; i < 100; ++i) {
+    belief.Move();
+  }
+  // What has gone at the speed of the outbound journey.
+  std::vector<float> factors(800, 0.0F);
+  std::fill(factors.begin() + 195, factors.begin() + 206, 1.0F);
+  const double before = belief.Weigh(factors).Sum();
+  for (int i = 0; i < 200; ++i) {
+    belief.Move();
+  }
+  const std::vector<float> mass = belief.Masses().mass;
+  EXPECT_GT(std::accumulate(mass.begin() + 375, mass.begin() + 426, 0.0), 0.65 * before);
 }
 
 TEST(RouteBeliefTest, GrowthGivesNewStepsTheirMass) {
