@@ -70,7 +70,7 @@ stage_asan() { HOMING_PRESET=asan sh tests/run.sh; }
 stage_tidy() {
   cmake --preset tidy
   cmake --build --preset tidy --target homing_proto_sources
-  run-clang-tidy -quiet -p build/tidy -j "$jobs" -extra-arg=-Wno-unknown-warning-option '^(?!.*\.pb\.cc$)'
+  run-clang-tidy -quiet -p build/tidy -j "$jobs" -extra-arg=-Wno-unknown-warning-option '^(?!.*(\.pb\.cc|/homing_proto\.dir/.*)$)'
 }
 
 # Kills, power cuts, full and failing disks: few of each. Goes on from the build of the tests.
