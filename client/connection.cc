@@ -18,7 +18,12 @@
 namespace homing::client {
 namespace {
 
-using Clock = std::chrono::system_clock;
+// A robot's wall clock jumps when it learns the time.
+using Clock = std::chrono::steady_clock;
+
+constexpr int kReconnectBackoffMs = 100;
+// After a refusal: one more attempt fits in, so that a server on its way up is not missed.
+constexpr std::chrono::milliseconds kSecondAttempt{400};
 
 absl::StatusOr<std::string> ReadPem(const std::string& flag, const std::string& path) {
   if (path.empty()) return std::string();
@@ -76,7 +81,7 @@ grpc::ChannelArguments MakeArguments(const ConnectionOptions& options) {
   // A dead link shows itself within half a minute even when nothing is sent.
   arguments.SetInt(GRPC_ARG_KEEPALIVE_TIME_MS, 20000);
   arguments.SetInt(GRPC_ARG_KEEPALIVE_TIMEOUT_MS, 10000);
-  arguments.SetInt(GRPC_ARG_INITIAL_RECONNECT_BACKOFF_MS, 100);
+  arguments.SetInt(GRPC_ARG_INITIAL_RECONNECT_BACKOFF_MS, kReconnectBackoffMs);
   // gRPC's time for one attempt to connect, TLS and all: a slow radio link takes seconds.
   arguments.SetInt(GRPC_ARG_MIN_RECONNECT_BACKOFF_MS, 5000);
   arguments.SetInt(GRPC_ARG_MAX_RECONNECT_BACKOFF_MS, 2000);
@@ -105,19 +110,22 @@ absl::StatusOr<Connection> Connection::Open(const ConnectionOptions& options) {
 }
 
 absl::Status Connection::WaitForServer() const {
-  const auto deadline = Clock::now() + options_.connect_timeout;
-  auto state = channel_->GetState(/*try_to_connect=*/true);
-  while (state != GRPC_CHANNEL_READY) {
-    const bool changed = state != GRPC_CHANNEL_TRANSIENT_FAILURE &&
-                         state != GRPC_CHANNEL_SHUTDOWN &&
-                         channel_->WaitForStateChange(state, deadline);
-    if (!changed) {
+  auto limit = Clock::now() + options_.connect_timeout;
+  bool refused = false;
+  for (auto state = channel_->GetState(/*try_to_connect=*/true); state != GRPC_CHANNEL_READY;
+       state = channel_->GetState(true)) {
+    if (state == GRPC_CHANNEL_TRANSIENT_FAILURE && !refused) {
+      refused = true;
+      limit = std::min(limit, Clock::now() + kSecondAttempt);
+    }
+    const auto left = limit - Clock::now();
+    if (state == GRPC_CHANNEL_SHUTDOWN || left <= left.zero() ||
+        !channel_->WaitForStateChange(state, std::chrono::system_clock::now() + left)) {
       return absl::UnavailableError(absl::StrCat(
           "no server answers at ", options_.address, " (--server)",
           UsesTls(options_) ? ", or TLS failed: the CA, or the certificate of one side, is not good"
                             : ", or it wants TLS (--tls-ca)"));
     }
-    state = channel_->GetState(true);
   }
   return absl::OkStatus();
 }

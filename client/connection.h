@@ -45,8 +45,8 @@ class Connection {
   const std::shared_ptr<grpc::Channel>& channel() const { return channel_; }
   const ConnectionOptions& options() const { return options_; }
 
-  // UNAVAILABLE naming the address: nothing answers there. Returns at the first refusal, and at
-  // `connect_timeout` at the latest.
+  // UNAVAILABLE naming the address: nothing answers there. Returns at the second refusal, and
+  // at `connect_timeout` at the latest.
   absl::Status WaitForServer() const;
 
   // Repeats a unary `call` while it IsRetriable, for `retry_for` since the first attempt.

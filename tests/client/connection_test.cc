@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <memory>
 
 #include "client/rpc_status.h"
 #include "google/rpc/error_details.pb.h"
@@ -41,6 +42,24 @@ TEST(ConnectionTest, IsReadyOnceTheServerAnswers) {
   options.address = server.address();
   const auto connection = Connection::Open(options);
   ASSERT_THAT(connection, IsOk());
+  EXPECT_THAT(connection->WaitForServer(), IsOk());
+}
+
+TEST(ConnectionTest, AServerThatComesUpAfterTheFirstRefusalIsFound) {
+  FakeJourneyService service({});
+  auto server = std::make_unique<FakeServer>(&service);
+  const int port = server->port();
+  ConnectionOptions options;
+  options.address = server->address();
+  server.reset();
+  const auto connection = Connection::Open(options);
+  ASSERT_THAT(connection, IsOk());
+  const auto deadline = std::chrono::system_clock::now() + std::chrono::seconds(5);
+  for (auto state = connection->channel()->GetState(true); state != GRPC_CHANNEL_TRANSIENT_FAILURE;
+       state = connection->channel()->GetState(true)) {
+    ASSERT_TRUE(connection->channel()->WaitForStateChange(state, deadline));
+  }
+  server = std::make_unique<FakeServer>(&service, port);
   EXPECT_THAT(connection->WaitForServer(), IsOk());
 }
 

@@ -3,6 +3,7 @@
 #include <signal.h>
 
 #include <fstream>
+#include <iostream>
 #include <sstream>
 
 namespace homing {
@@ -19,6 +20,14 @@ std::vector<nlohmann::json> Ran::Json() const {
     EXPECT_TRUE(objects.back().is_object()) << line;
   }
   return objects;
+}
+
+void CliTest::TearDown() {
+  if (!HasFailure() || server_ == nullptr) return;
+  server_->Signal(SIGTERM);
+  const int code = server_->Wait();
+  std::cerr << "homing-server at " << address_ << " ended with " << code << ":\n"
+            << server_->Stderr();
 }
 
 void CliTest::StartServer(const std::string& database, const std::vector<std::string>& more) {

@@ -27,6 +27,9 @@ struct Ran {
 
 class CliTest : public ::testing::Test {
  protected:
+  // A failed test tells what its server said, and whether it still ran.
+  void TearDown() override;
+
   // Starts the server on `database` (a name in the test's folder); the first time on a port of its
   // choice, later on the same one. `more`: further arguments of it.
   void StartServer(const std::string& database = "homing.db",
