@@ -3,7 +3,7 @@
 # that keep pictures, and prints a line for each bound (name value bound ok|short). Writes docs/results.md.
 # Exits 1 if any is short.
 # usage: tests/accuracy/run.sh [--quick | --seeds N]     --quick: two simulated worlds a scene instead of twenty, a small fleet,
-# no report; --seeds: so many worlds
+# no report, recall bounded over all conditions of a scene together; --seeds: so many worlds
 # HOMING_DATA names the folder of real sequences (default: ../shared/data beside the checkout; without it the
 # simulated part alone is run); HOMING_BUILD a build with homing-server and homing_accuracy (default:
 # build/dev, built if need be).
