@@ -82,6 +82,8 @@ stage_faults() {
   fi
 }
 
+stage_fuzz_build() { cmake --preset fuzz && cmake --build --preset fuzz -j "$jobs"; }
+
 stage_fuzz() { sh tests/fuzz/run.sh 30; }
 
 stage_tsan() { HOMING_PRESET=tsan sh tests/run.sh; }

@@ -18,10 +18,10 @@ function(homing_library name)
   target_link_libraries(${name} PUBLIC ${A_DEPS})
 endfunction()
 
-# A GoogleTest program, one ctest entry a case; with sanitizers one entry in all, since a program with them takes a
-# second to start. Compiled without optimisation, which halves the time: it is not what is measured.
+# A GoogleTest program, one ctest entry a case; with sanitizers one entry in all (or SHARDS), since a program with
+# them takes a second to start. Compiled without optimisation, which halves the time: it is not what is measured.
 function(homing_test name)
-  cmake_parse_arguments(A "" "TIMEOUT" "SOURCES;DEPS" ${ARGN})
+  cmake_parse_arguments(A "" "TIMEOUT;SHARDS" "SOURCES;DEPS" ${ARGN})
   if(NOT A_TIMEOUT)
     set(A_TIMEOUT 300)
   endif()
@@ -30,8 +30,16 @@ function(homing_test name)
   target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR})
   target_link_libraries(${name} PRIVATE ${A_DEPS} GTest::gmock GTest::gtest_main)
   if(HOMING_SANITIZE)
-    add_test(NAME ${name} COMMAND ${name})
-    set_tests_properties(${name} PROPERTIES TIMEOUT 1500)
+    if(NOT A_SHARDS)
+      set(A_SHARDS 1)
+    endif()
+    math(EXPR last "${A_SHARDS} - 1")
+    foreach(shard RANGE ${last})
+      # The sharded ones first: they are the long ones.
+      add_test(NAME ${name}_${shard} COMMAND ${name})
+      set_tests_properties(${name}_${shard} PROPERTIES TIMEOUT 1500 COST ${A_SHARDS}
+        ENVIRONMENT "GTEST_TOTAL_SHARDS=${A_SHARDS};GTEST_SHARD_INDEX=${shard}")
+    endforeach()
   else()
     gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT ${A_TIMEOUT})
   endif()
