@@ -63,20 +63,31 @@ void Matcher::Clear() {
 void Matcher::Scan(int number, const JourneyMap& map, std::int64_t first, std::int64_t last,
                    const SeenSides& seen, double threshold) {
   const SurvivalBound& bound = BoundOf(map.settings().deviation_model);
+  // Of most pairs the distance alone says that they are none.
+  const float reach = bound.ReachOf(threshold / (1 + 2 * double{kProductRounding}));
+  all_seen_.clear();
+  for (std::size_t side = 0; side < seen.size(); ++side) {
+    for (const SeenLandmark& landmark : seen[side]) {
+      all_seen_.push_back({&landmark, landmark.x, landmark.y, static_cast<Side>(side)});
+    }
+  }
   const std::size_t before = least_.size();
   least_.resize(before + map.landmarks().size(), 0);
   for (std::int64_t step = first; step <= last; ++step) {
     for (const Fingerprint& stored : map.fingerprints(step)) {
-      const std::size_t of = before + static_cast<std::size_t>(stored.landmark);
-      for (const SeenLandmark& landmark : seen[static_cast<std::size_t>(map.side_of(stored))]) {
-        const float dx = stored.x - landmark.x;
-        const float dy = stored.y - landmark.y;
+      for (const SeenPlace& place : all_seen_) {
+        const float dx = stored.x - place.x;
+        const float dy = stored.y - place.y;
+        const float squared = dx * dx + dy * dy;
+        if (squared >= reach || map.side_of(stored) != place.side) continue;
+        const SeenLandmark& landmark = *place.landmark;
         const auto [low, high] = std::minmax(stored.count, landmark.count);
         const float ratio = static_cast<float>(low) / static_cast<float>(high);
-        const float most = ratio * bound.At(dx * dx + dy * dy) * (1 + kProductRounding);
+        const float most = ratio * bound.At(squared) * (1 + kProductRounding);
         if (double{most} < threshold) continue;
+        const std::size_t of = before + static_cast<std::size_t>(stored.landmark);
         candidates_.push_back({&stored, &landmark, step, number, of, most});
-        const float least = ratio * bound.LeastAt(dx * dx + dy * dy) * (1 - kProductRounding);
+        const float least = ratio * bound.LeastAt(squared) * (1 - kProductRounding);
         least_[of] = std::max(least_[of], least);
       }
     }

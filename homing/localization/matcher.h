@@ -81,6 +81,14 @@ class Matcher {
     float most = 0;
   };
 
+  // What is seen on either side of the route, in one row.
+  struct SeenPlace {
+    const SeenLandmark* landmark = nullptr;
+    float x = 0;
+    float y = 0;
+    Side side = Side::kLeft;
+  };
+
   const SurvivalBound& BoundOf(const DeviationModel& model);
   void Clear();
   void Scan(int number, const JourneyMap& map, std::int64_t first, std::int64_t last,
@@ -91,6 +99,7 @@ class Matcher {
   std::vector<Match> Compute(std::span<const JourneyRef> journeys, const MatchOptions& options);
 
   std::vector<std::pair<DeviationModel, std::unique_ptr<const SurvivalBound>>> bounds_;
+  std::vector<SeenPlace> all_seen_;
   std::vector<Candidate> candidates_;
   // By landmark over all journeys: what its P_T is at least.
   std::vector<float> least_;

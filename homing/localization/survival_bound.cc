@@ -1,6 +1,8 @@
 #include "homing/localization/survival_bound.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace homing {
 namespace {
@@ -24,6 +26,15 @@ SurvivalBound::SurvivalBound(const DeviationModel& model) : table_{}, least_{} {
     least_[static_cast<std::size_t>(i - 1)] =
         further < kLeastBound ? 0 : static_cast<float>(further * (1 - kBoundRounding));
   }
+}
+
+float SurvivalBound::ReachOf(double share) const {
+  const auto beyond =
+      std::ranges::partition_point(table_, [share](float most) { return double{most} >= share; });
+  return beyond == table_.end()
+             ? std::numeric_limits<float>::infinity()
+             : std::bit_cast<float>(
+                   (kFirst + static_cast<std::int32_t>(beyond - table_.begin())) << kShift);
 }
 
 }  // namespace homing

@@ -25,6 +25,8 @@ class SurvivalBound {
   float LeastAt(float squared_px) const {
     return least_[static_cast<std::size_t>(IndexOf(squared_px))];
   }
+  // From this squared distance on, At is less than `share`.
+  float ReachOf(double share) const;
   // Where At looks; for loops over many.
   static std::int32_t IndexOf(float squared_px) {
     // The bits of a float that is not negative grow with it.
