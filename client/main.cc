@@ -7,7 +7,6 @@
 
 #include "client/command/commands.h"
 #include "client/command/session.h"
-#include "homing/freed_memory.h"
 
 namespace {
 
@@ -33,7 +32,6 @@ void StopAtSignal(const std::stop_source& source) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  homing::KeepFreedMemory();
   std::stop_source stop;
   StopAtSignal(stop);
   homing::client::Session session;

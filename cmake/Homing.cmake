@@ -18,6 +18,13 @@ function(homing_library name)
   target_link_libraries(${name} PUBLIC ${A_DEPS})
 endfunction()
 
+# What programs allocate with: see docs/decisions/0032. Sanitizers bring their own.
+add_library(homing_allocator INTERFACE)
+if(NOT HOMING_SANITIZE)
+  find_library(JEMALLOC_LIBRARY jemalloc REQUIRED)
+  target_link_libraries(homing_allocator INTERFACE ${JEMALLOC_LIBRARY})
+endif()
+
 # A GoogleTest program, one ctest entry a case; with sanitizers one entry in all (or SHARDS), since a program with
 # them takes a second to start. Compiled without optimisation, which halves the time: it is not what is measured.
 function(homing_test name)

@@ -8,7 +8,6 @@
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 
-#include "homing/freed_memory.h"
 #include "homing/open_files.h"
 #include "server/access_commands.h"
 #include "server/health_check.h"
@@ -41,7 +40,6 @@ sigset_t BlockStopSignals() {
 
 int Serve(const homing::server::ServerOptions& options) {
   const sigset_t signals = BlockStopSignals();
-  homing::KeepFreedMemory();
   homing::RaiseOpenFileLimit();
   const auto server = HomingServer::Start(options);
   if (!server.ok()) {

@@ -12,7 +12,6 @@
 #include <vector>
 
 #include "absl/strings/str_cat.h"
-#include "homing/freed_memory.h"
 #include "tests/benchmark/benchmarks.h"
 #include "tests/benchmark/report.h"
 #include "tests/benchmark/results.h"
@@ -135,7 +134,6 @@ int Run(const Arguments& arguments) {
 
 int main(int argc, char** argv) {
   // As the server does; the peers gain by it too.
-  homing::KeepFreedMemory();
   if (argc == 4 && std::string(argv[1]) == "--copy-journeys") {
     return homing::benchmarks::CopyJourneys(argv[2], std::atoi(argv[3])) ? 0 : 1;
   }

@@ -25,9 +25,9 @@ void CheckLeaks(const Programs& programs, Figures* figures) {
   const TemporaryFolder folder;
   WriteFiles(folder.File("data"), {});
   ServerUnderTest server(programs.server, folder.File("data"));
-  const bool started =
-      server.Start({"valgrind", "--quiet", "--leak-check=full", "--show-leak-kinds=definite",
-                    "--errors-for-leak-kinds=definite", "--error-exitcode=9"});
+  const bool started = server.Start(
+      {"valgrind", "--quiet", "--soname-synonyms=somalloc=libjemalloc*", "--leak-check=full",
+       "--show-leak-kinds=definite", "--errors-for-leak-kinds=definite", "--error-exitcode=9"});
   if (!started) return figures->Failed("valgrind", "no server");
   RobotOptions robot;
   robot.address = server.address();
