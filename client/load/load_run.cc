@@ -26,6 +26,8 @@ using LocalizeRobot = LoadRobot<v1::LocalizeRequest, v1::LocalizeResponse>;
 constexpr char kWriter[] = "bench";
 constexpr char kJourney[] = "load";
 constexpr int kSceneSteps = 250;
+constexpr int kOutDrive = 1;
+constexpr int kSecondDrive = 2;
 constexpr int kSceneFrames = 60;
 // For the last answers, after the last observation.
 constexpr std::chrono::seconds kGrace{30};
@@ -60,9 +62,22 @@ class SceneStream final : public ObservationStream {
   std::int64_t next_ = 0;
 };
 
-absl::StatusOr<LoadScene> MakeScene(const LoadOptions& options, int route, int steps) {
+absl::StatusOr<LoadScene> MakeScene(const LoadOptions& options, int route, int drive, int steps) {
   if (options.frames) return LoadScene::WithFrames(kSceneFrames);
-  return LoadScene::WithFlow(route, steps, options.vectors);
+  return LoadScene::WithFlow(route, drive, steps, options.vectors);
+}
+
+// One drive along each route that is shared; all have the same frames.
+absl::StatusOr<std::vector<LoadScene>> MakeScenes(const LoadOptions& options, int drive) {
+  const bool shared = options.localize || options.prepare_only;
+  std::vector<LoadScene> scenes;
+  for (int i = 0; i < (shared && !options.frames ? options.journeys : 1); ++i) {
+    HOMING_ASSIGN_OR_RETURN(LoadScene scene,
+                            MakeScene(options, i, drive, shared ? options.steps : kSceneSteps));
+    scenes.push_back(std::move(scene));
+  }
+  if (shared) scenes.resize(static_cast<std::size_t>(options.journeys), scenes.front());
+  return scenes;
 }
 
 // The journeys that are localised on; those that are there already are left as they are.
@@ -214,19 +229,13 @@ absl::StatusOr<LoadResult> RunLoad(const ConnectionOptions& connection, const Lo
   RaiseOpenFileLimit();
   HOMING_ASSIGN_OR_RETURN(const Connection first, Connection::Open(connection));
   HOMING_RETURN_IF_ERROR(first.WaitForServer());
-  const bool shared = options.localize || options.prepare_only;
-  std::vector<LoadScene> scenes;
-  for (int i = 0; i < (shared && !options.frames ? options.journeys : 1); ++i) {
-    HOMING_ASSIGN_OR_RETURN(LoadScene scene,
-                            MakeScene(options, i, shared ? options.steps : kSceneSteps));
-    scenes.push_back(std::move(scene));
-  }
-  if (shared) {
-    if (options.frames) scenes.resize(static_cast<std::size_t>(options.journeys), scenes.front());
+  HOMING_ASSIGN_OR_RETURN(const std::vector<LoadScene> scenes, MakeScenes(options, kOutDrive));
+  if (options.localize || options.prepare_only) {
     log("recording the journeys to localise on");
     HOMING_RETURN_IF_ERROR(RecordJourneys(first, options, scenes, stop));
     if (options.prepare_only) return LoadResult{};
-    return Localize(connection, options, scenes, stop);
+    HOMING_ASSIGN_OR_RETURN(const std::vector<LoadScene> again, MakeScenes(options, kSecondDrive));
+    return Localize(connection, options, again, stop);
   }
   HOMING_RETURN_IF_ERROR(CreateJourneys(first, options, stop));
   return Record(connection, options, scenes, stop);

@@ -1,49 +1,50 @@
 #include "client/load/load_scene.h"
 
-#include <random>
+#include <utility>
 
 #include "client/frame_source.h"
+#include "client/load/projected_drive.h"
+#include "client/simulator/seeded_random.h"
 #include "homing/status_macros.h"
 #include "proto/wire/observation_conversion.h"
 
 namespace homing::client {
 namespace {
 
-constexpr int kWidth = 640;
-constexpr int kHeight = 480;
-// Steps for which a landmark is in view.
-constexpr int kStepsInView = 25;
 constexpr char kFrames[] = "sim:street,length=40";
+constexpr double kStepM = 4 / 3.6 / 5;
+// Too short to count.
+constexpr float kStillPx = 0.05F;
 
-// One landmark at a time, drifting from right to left at a speed of its own.
-FlowField FlowAt(int route, int step, int vectors) {
-  const int landmark = step / kStepsInView;
-  std::mt19937 drawn(static_cast<std::uint32_t>(route * 100'003 + landmark));
-  std::uniform_real_distribution<float> place(150, 330);
-  std::uniform_real_distribution<float> part(0.4F, 1.0F);
-  const float y = place(drawn);
-  const auto seen = static_cast<int>(part(drawn) * static_cast<float>(vectors));
-  const float x = 560 - static_cast<float>(step % kStepsInView) * 19;
-  std::mt19937 noise(static_cast<std::uint32_t>(step));
-  std::uniform_real_distribution<float> spread(-40, 40);
-  FlowField field{kWidth, kHeight, {}};
-  for (int i = 0; i < vectors; ++i) {
-    const float from_x = x + spread(noise);
-    const float from_y = y + spread(noise);
-    // The others are too short to count.
-    const float length = i < seen ? 4 : 0.05F;
-    field.vectors.push_back({from_x, from_y, from_x - length, from_y});
+// What is seen fills the message to `vectors`, or is thinned out to them.
+void SetCount(int vectors, SeededRandom& random, FlowField& field) {
+  const auto count = static_cast<std::size_t>(vectors);
+  while (field.vectors.size() > count) {
+    field.vectors[static_cast<std::size_t>(random.Below(static_cast<int>(field.vectors.size())))] =
+        field.vectors.back();
+    field.vectors.pop_back();
   }
-  return field;
+  while (field.vectors.size() < count) {
+    const auto x = static_cast<float>(random.Uniform(1, field.width - 1));
+    const auto y = static_cast<float>(random.Uniform(0, field.height));
+    field.vectors.push_back({x, y, x - kStillPx, y});
+  }
 }
 
 }  // namespace
 
-LoadScene LoadScene::WithFlow(int route, int steps, int vectors) {
+LoadScene LoadScene::WithFlow(int route, int drive, int steps, int vectors) {
+  const double length = steps * kStepM;
+  const ProjectedWorld world(static_cast<std::uint64_t>(route), length);
+  const ProjectedDrive robot(
+      &world, {.seed = static_cast<std::uint64_t>(drive), .end_m = length + kStepM / 2});
+  SeededRandom random(Mix(static_cast<std::uint64_t>(route), static_cast<std::uint64_t>(drive)));
   LoadScene scene;
   for (int step = 0; step < steps; ++step) {
+    FlowField field = *robot.Flow(step).fields[0];
+    SetCount(vectors, random, field);
     Observation observation;
-    observation.views[0] = FlowAt(route, step, vectors);
+    observation.views[0] = std::move(field);
     scene.observations_.push_back(wire::ToProto(observation));
   }
   return scene;

@@ -13,9 +13,9 @@ namespace homing::client {
 // The observations of one route, made once and given out over and over.
 class LoadScene {
  public:
-  // Flow vectors of one camera: landmarks drift across an image of 640 x 480, other ones on each
-  // route.
-  static LoadScene WithFlow(int route, int steps, int vectors);
+  // Flow vectors of the left camera on a simulated street, another one for each route; each drive
+  // along it has its own noise and clutter.
+  static LoadScene WithFlow(int route, int drive, int steps, int vectors);
   // Frames of the simulated street, left camera.
   static absl::StatusOr<LoadScene> WithFrames(int count);
 

@@ -7,14 +7,18 @@
 #include <vector>
 
 #include "absl/strings/str_format.h"
+#include "client/load/projected_drive.h"
 #include "client/simulator/seeded_random.h"
 #include "proto/wire/enum_conversion.h"
-#include "tests/accuracy/projected_drive.h"
 #include "tests/accuracy/sequences.h"
 #include "tests/accuracy/server_runs.h"
 
 namespace homing::accuracy {
 namespace {
+
+using client::ProjectedDrive;
+using client::ProjectedDriveOptions;
+using client::ProjectedWorld;
 
 constexpr double kOutKmh = 4;
 constexpr double kHomeKmh = 5;

@@ -5,15 +5,18 @@
 #include <utility>
 
 #include "absl/strings/str_cat.h"
+#include "client/load/projected_drive.h"
 #include "homing/journey/journey_recorder.h"
 #include "homing/landmark/profile_code.h"
 #include "homing/localization/localizer.h"
 #include "proto/wire/enum_conversion.h"
-#include "tests/accuracy/projected_drive.h"
 #include "tests/accuracy/server_runs.h"
 
 namespace homing::accuracy {
 namespace {
+
+using client::ProjectedDrive;
+using client::ProjectedWorld;
 
 Observations ObservationsOf(const Drive& drive) {
   return {drive.size(), [&drive](std::size_t i) { return drive[i].flow; }};

@@ -1,4 +1,4 @@
-#include "tests/accuracy/projected_drive.h"
+#include "client/load/projected_drive.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,11 +6,8 @@
 
 #include "client/simulator/seeded_random.h"
 
-namespace homing::accuracy {
+namespace homing::client {
 namespace {
-
-using client::Mix;
-using client::SeededRandom;
 
 constexpr int kWidth = 320;
 constexpr int kHeight = 240;
@@ -119,7 +116,7 @@ double ProjectedDrive::Place(std::int64_t instant) const {
 
 bool ProjectedDrive::IsGone(const ProjectedWorld::Corner& corner) const {
   const auto object = static_cast<std::uint64_t>(corner.object);
-  return corner.object >= 0 && client::ToUnit(Mix(options_.seed, 991, object)) < options_.removed;
+  return corner.object >= 0 && ToUnit(Mix(options_.seed, 991, object)) < options_.removed;
 }
 
 FlowField ProjectedDrive::Field(std::size_t side, std::int64_t instant) const {
@@ -173,4 +170,4 @@ ObservedFlow ProjectedDrive::Flow(std::int64_t instant) const {
   return flow;
 }
 
-}  // namespace homing::accuracy
+}  // namespace homing::client

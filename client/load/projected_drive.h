@@ -1,6 +1,6 @@
 // Drives whose flow is projected from points, not rendered: long routes at little cost.
-#ifndef TESTS_ACCURACY_PROJECTED_DRIVE_H_
-#define TESTS_ACCURACY_PROJECTED_DRIVE_H_
+#ifndef CLIENT_LOAD_PROJECTED_DRIVE_H_
+#define CLIENT_LOAD_PROJECTED_DRIVE_H_
 
 #include <array>
 #include <cstdint>
@@ -9,7 +9,7 @@
 #include "homing/flow/observation.h"
 #include "homing/localization/matcher.h"
 
-namespace homing::accuracy {
+namespace homing::client {
 
 // Both sides of a street: fronts with corners, posts before them, far things behind. All routes
 // draw their fronts from one pool of eight patterns of corners. Source: own design.
@@ -76,6 +76,6 @@ class ProjectedDrive {
   std::int64_t size_ = 0;
 };
 
-}  // namespace homing::accuracy
+}  // namespace homing::client
 
-#endif  // TESTS_ACCURACY_PROJECTED_DRIVE_H_
+#endif  // CLIENT_LOAD_PROJECTED_DRIVE_H_
