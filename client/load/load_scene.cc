@@ -13,21 +13,33 @@ namespace {
 
 constexpr char kFrames[] = "sim:street,length=40";
 constexpr double kStepM = 4 / 3.6 / 5;
-// Too short to count.
-constexpr float kStillPx = 0.05F;
+// Of one more corner from one that is seen.
+constexpr double kBesidePx = 6;
 
-// What is seen fills the message to `vectors`, or is thinned out to them.
-void SetCount(int vectors, SeededRandom& random, FlowField& field) {
-  const auto count = static_cast<std::size_t>(vectors);
-  while (field.vectors.size() > count) {
-    field.vectors[static_cast<std::size_t>(random.Below(static_cast<int>(field.vectors.size())))] =
-        field.vectors.back();
-    field.vectors.pop_back();
+bool IsInside(const FlowField& field, float x, float y) {
+  return x >= 0 && x < static_cast<float>(field.width) && y >= 0 &&
+         y < static_cast<float>(field.height);
+}
+
+// Thinned out to `count` vectors, or with more corners beside those that are seen.
+void SetCount(std::size_t count, SeededRandom& random, FlowField& field) {
+  std::vector<FlowVector>& vectors = field.vectors;
+  const auto any = [&] {
+    return static_cast<std::size_t>(random.Below(static_cast<int>(vectors.size())));
+  };
+  while (vectors.size() > count) {
+    vectors[any()] = vectors.back();
+    vectors.pop_back();
   }
-  while (field.vectors.size() < count) {
-    const auto x = static_cast<float>(random.Uniform(1, field.width - 1));
-    const auto y = static_cast<float>(random.Uniform(0, field.height));
-    field.vectors.push_back({x, y, x - kStillPx, y});
+  while (!vectors.empty() && vectors.size() < count) {
+    const FlowVector& seen = vectors[any()];
+    const auto x = static_cast<float>(random.Uniform(-kBesidePx, kBesidePx));
+    const auto y = static_cast<float>(random.Uniform(-kBesidePx, kBesidePx));
+    const FlowVector beside{seen.start_x + x, seen.start_y + y, seen.end_x + x, seen.end_y + y};
+    if (IsInside(field, beside.start_x, beside.start_y) &&
+        IsInside(field, beside.end_x, beside.end_y)) {
+      vectors.push_back(beside);
+    }
   }
 }
 
@@ -42,7 +54,7 @@ LoadScene LoadScene::WithFlow(int route, int drive, int steps, int vectors) {
   LoadScene scene;
   for (int step = 0; step < steps; ++step) {
     FlowField field = *robot.Flow(step).fields[0];
-    SetCount(vectors, random, field);
+    SetCount(static_cast<std::size_t>(vectors), random, field);
     Observation observation;
     observation.views[0] = std::move(field);
     scene.observations_.push_back(wire::ToProto(observation));

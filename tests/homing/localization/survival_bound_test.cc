@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <random>
 
 namespace homing {
@@ -32,6 +33,16 @@ TEST(SurvivalBoundTest, IsTightWhereMatchesAre) {
     EXPECT_LE(double{bound.At(squared)}, survival * 1.06);
     EXPECT_GE(double{bound.LeastAt(squared)}, survival * 0.94);
   }
+}
+
+TEST(SurvivalBoundTest, ReachesTheLastDistanceThatHasTheShare) {
+  const SurvivalBound bound{DeviationModel{}};
+  for (double share = 0.01; share <= 1; share += 0.01) {
+    const float reach = bound.ReachOf(share);
+    EXPECT_LT(double{bound.At(reach)}, share);
+    EXPECT_GE(double{bound.At(std::nextafter(reach, 0.0F))}, share);
+  }
+  EXPECT_EQ(bound.ReachOf(0), std::numeric_limits<float>::infinity());
 }
 
 TEST(SurvivalBoundTest, DistanceOfNothingIsCertain) {
