@@ -5,8 +5,8 @@
 #include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
 #include "client/image_folder.h"
+#include "client/opencv_readers.h"
 #include "client/simulated_source.h"
-#include "client/video_source.h"
 #include "homing/status_macros.h"
 
 namespace homing::client {
@@ -41,7 +41,12 @@ absl::StatusOr<std::unique_ptr<FrameSource>> OpenFrameSource(const std::string& 
     HOMING_ASSIGN_OR_RETURN(auto paths, ListImages(source));
     return MakeImageFolder(std::move(paths));
   }
-  return OpenVideo(source);
+  std::error_code error;
+  if (!std::filesystem::exists(source, error)) {
+    return absl::NotFoundError(absl::StrCat("no such source: ", source));
+  }
+  HOMING_ASSIGN_OR_RETURN(const OpenCvReaders* const readers, LoadOpenCvReaders());
+  return readers->open_video(source);
 }
 
 }  // namespace homing::client

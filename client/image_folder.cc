@@ -9,13 +9,10 @@
 #include <fstream>
 #include <sstream>
 
-#ifdef HOMING_IMGCODECS
-#include <opencv2/imgcodecs.hpp>
-#endif
-
 #include "absl/strings/ascii.h"
 #include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
+#include "client/opencv_readers.h"
 #include "homing/status_macros.h"
 
 namespace homing::client {
@@ -79,20 +76,8 @@ std::optional<FrameEncoding> EncodingOf(const std::string& bytes) {
 }
 
 absl::StatusOr<SourceFrame> DecodeOther(const std::string& path) {
-#ifdef HOMING_IMGCODECS
-  cv::Mat image;
-  try {
-    image = cv::imread(path, cv::IMREAD_GRAYSCALE);
-  } catch (const cv::Exception&) {
-    image.release();
-  }
-  if (image.empty()) return absl::InvalidArgumentError(absl::StrCat(path, " is no image"));
-  return SourceFrame{FrameEncoding::kGray8, image.cols, image.rows,
-                     std::string(reinterpret_cast<const char*>(image.data), image.total()), 0};
-#else
-  return absl::InvalidArgumentError(
-      absl::StrCat(path, " is neither JPEG nor PNG; this build reads no other image files"));
-#endif
+  HOMING_ASSIGN_OR_RETURN(const OpenCvReaders* const readers, LoadOpenCvReaders());
+  return readers->read_gray_image(path);
 }
 
 class ImageFolder : public FrameSource {

@@ -104,7 +104,7 @@ TEST_F(ImageFolderTest, SaysWhichFileIsNoImage) {
               StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("broken.pgm")));
 }
 
-#ifdef HOMING_IMGCODECS
+#ifdef HOMING_OPENCV_READERS
 TEST_F(ImageFolderTest, ReadsOtherFormatsAsGray) {
   Write("a.pgm", "P5 3 2 255\nabcdef");
   const auto frame = ReadImage(Path("a.pgm"));

@@ -1,14 +1,10 @@
-#include "client/video_source.h"
+#include "client/opencv/video_source.h"
 
 #include <chrono>
-#include <filesystem>
 #include <opencv2/core.hpp>
 #include <opencv2/core/utils/logger.hpp>
-#include <opencv2/imgproc.hpp>
-
-#ifdef HOMING_VIDEOIO
 #include <opencv2/videoio.hpp>
-#endif
+#include <utility>
 
 #include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
@@ -16,7 +12,6 @@
 
 namespace homing::client {
 
-#ifdef HOMING_VIDEOIO
 namespace {
 
 std::int64_t NowNanoseconds() {
@@ -109,24 +104,11 @@ class VideoSource : public FrameSource {
 }  // namespace
 
 absl::StatusOr<std::unique_ptr<FrameSource>> OpenVideo(const std::string& path) {
-  std::error_code error;
-  if (!std::filesystem::exists(path, error)) {
-    return absl::NotFoundError(absl::StrCat("no such source: ", path));
-  }
   // What is wrong is said once, by us.
   cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
   auto video = std::make_unique<VideoSource>(path, absl::StartsWith(path, "/dev/video"));
   HOMING_RETURN_IF_ERROR(video->Open());
   return video;
 }
-
-#else
-
-absl::StatusOr<std::unique_ptr<FrameSource>> OpenVideo(const std::string& path) {
-  return absl::UnimplementedError(absl::StrCat(
-      path, ": this build reads no videos and cameras (libopencv-videoio is missing)"));
-}
-
-#endif
 
 }  // namespace homing::client

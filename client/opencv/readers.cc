@@ -1,0 +1,31 @@
+#include "client/opencv_readers.h"
+
+#include <opencv2/imgcodecs.hpp>
+
+#include "absl/strings/str_cat.h"
+#include "client/opencv/video_source.h"
+
+namespace homing::client {
+namespace {
+
+absl::StatusOr<SourceFrame> ReadGrayImage(const std::string& path) {
+  cv::Mat image;
+  try {
+    image = cv::imread(path, cv::IMREAD_GRAYSCALE);
+  } catch (const cv::Exception&) {
+    image.release();
+  }
+  if (image.empty()) return absl::InvalidArgumentError(absl::StrCat(path, " is no image"));
+  return SourceFrame{FrameEncoding::kGray8, image.cols, image.rows,
+                     std::string(reinterpret_cast<const char*>(image.data), image.total()), 0};
+}
+
+constexpr OpenCvReaders kReaders = {.read_gray_image = &ReadGrayImage, .open_video = &OpenVideo};
+
+}  // namespace
+}  // namespace homing::client
+
+extern "C" __attribute__((visibility("default"))) const homing::client::OpenCvReaders*
+HomingOpenCvReaders() {
+  return &homing::client::kReaders;
+}
