@@ -33,7 +33,9 @@ std::optional<std::chrono::milliseconds> FindRetryInfo(const std::string& detail
 absl::Status FromGrpc(const grpc::Status& status) {
   if (status.ok()) return absl::OkStatus();
   absl::Status result(static_cast<absl::StatusCode>(status.error_code()), status.error_message());
-  if (const auto delay = FindRetryInfo(status.error_details())) {
+  auto delay = FindRetryInfo(status.error_details());
+  if (!delay && absl::IsCancelled(result)) delay = std::chrono::milliseconds(0);
+  if (delay) {
     result.SetPayload(kRetryDelayUrl, absl::Cord(absl::StrCat(delay->count())));
   }
   return result;
@@ -48,7 +50,8 @@ std::optional<std::chrono::milliseconds> RetryDelay(const absl::Status& status) 
 
 bool IsRetriable(const absl::Status& status) {
   return absl::IsUnavailable(status) ||
-         (absl::IsResourceExhausted(status) && RetryDelay(status).has_value());
+         ((absl::IsResourceExhausted(status) || absl::IsCancelled(status)) &&
+          RetryDelay(status).has_value());
 }
 
 }  // namespace homing::client

@@ -11,13 +11,16 @@
 
 namespace homing::client {
 
-// Same code and message; keeps the delay of google.rpc.RetryInfo for RetryDelay.
+// Same code and message; keeps the delay of google.rpc.RetryInfo for RetryDelay. CANCELLED, by
+// which a server that shuts down ends calls, has a delay of 0: who cancels a call of its own does
+// not ask.
 absl::Status FromGrpc(const grpc::Status& status);
 
 // The delay that the server named, if it did.
 std::optional<std::chrono::milliseconds> RetryDelay(const absl::Status& status);
 
-// Whether the same call may succeed later: UNAVAILABLE, and RESOURCE_EXHAUSTED with a delay.
+// Whether the same call may succeed later: UNAVAILABLE, and RESOURCE_EXHAUSTED or CANCELLED with a
+// delay.
 bool IsRetriable(const absl::Status& status);
 
 }  // namespace homing::client

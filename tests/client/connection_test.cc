@@ -145,6 +145,11 @@ TEST(RpcStatusTest, ReadsTheDelayTheServerNames) {
   EXPECT_TRUE(IsRetriable(status));
 }
 
+TEST(RpcStatusTest, WhatAServerCancelsAsItShutsDownIsRetried) {
+  EXPECT_TRUE(IsRetriable(FromGrpc({grpc::StatusCode::CANCELLED, "CANCELLED"})));
+  EXPECT_FALSE(IsRetriable(absl::CancelledError("by a callback")));
+}
+
 TEST(RpcStatusTest, ExhaustedWithoutADelayIsNotRetried) {
   const absl::Status status = FromGrpc({grpc::StatusCode::RESOURCE_EXHAUSTED, "too large"});
   EXPECT_FALSE(RetryDelay(status).has_value());
