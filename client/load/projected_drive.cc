@@ -140,8 +140,8 @@ FlowField ProjectedDrive::Field(std::size_t side, std::int64_t instant) const {
     const double end = 0.5 * kWidth + sign * scale * (corner->along - now);
     if (!Inside(start, y) || !Inside(end, y)) continue;
     if (IsGone(*corner) || random.Chance(options_.missing)) continue;
-    bool& cell = taken[static_cast<std::size_t>(static_cast<int>(y) / kCellPx * kColumns +
-                                                static_cast<int>(start) / kCellPx)];
+    const int place = static_cast<int>(y) / kCellPx * kColumns + static_cast<int>(start) / kCellPx;
+    bool& cell = taken[static_cast<std::size_t>(place)];
     if (cell) continue;
     cell = true;
     const auto noisy = [&](double value) {
