@@ -122,12 +122,4 @@ void JourneyMap::set_profile(std::int64_t step, Side side, const FlowProfile& pr
   profiles[static_cast<std::size_t>(step)] = profile;
 }
 
-std::span<const Fingerprint> JourneyMap::fingerprints(std::int64_t step) const {
-  const auto index = static_cast<std::size_t>(step);
-  const auto begin = static_cast<std::size_t>(step_begin_[index]);
-  const auto end = index + 1 < step_begin_.size() ? static_cast<std::size_t>(step_begin_[index + 1])
-                                                  : fingerprints_.size();
-  return std::span<const Fingerprint>(fingerprints_).subspan(begin, end - begin);
-}
-
 }  // namespace homing

@@ -72,7 +72,14 @@ class JourneyMap {
   JourneySettings& mutable_settings() { return settings_; }
   std::int64_t step_count() const { return static_cast<std::int64_t>(step_begin_.size()); }
   // Fingerprints of one step, left side first. REQUIRES: 0 <= step < step_count().
-  std::span<const Fingerprint> fingerprints(std::int64_t step) const;
+  std::span<const Fingerprint> fingerprints(std::int64_t step) const {
+    const auto index = static_cast<std::size_t>(step);
+    const auto begin = static_cast<std::size_t>(step_begin_[index]);
+    const auto end = index + 1 < step_begin_.size()
+                         ? static_cast<std::size_t>(step_begin_[index + 1])
+                         : fingerprints_.size();
+    return std::span<const Fingerprint>(fingerprints_).subspan(begin, end - begin);
+  }
   std::span<const Fingerprint> all_fingerprints() const { return fingerprints_; }
   // Of each step, all 0 where it has none; empty if no step of this side has any.
   std::span<const FlowProfile> profiles(Side side) const {

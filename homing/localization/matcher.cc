@@ -4,10 +4,13 @@
 #include <cstddef>
 #include <functional>
 #include <iterator>
+#include <limits>
+#include <memory>
 #include <tuple>
 
 #include "homing/range_check.h"
 #include "homing/status_macros.h"
+#include "homing/vector_clones.h"
 
 namespace homing {
 namespace {
@@ -21,6 +24,22 @@ MeanAndCount Of(const SeenLandmark& seen) {
 
 MeanAndCount Of(const Fingerprint& stored) {
   return {double{stored.x}, double{stored.y}, static_cast<double>(stored.count)};
+}
+
+float SquaredDistance(const Fingerprint& stored, float x, float y) {
+  const float dx = stored.x - x;
+  const float dy = stored.y - y;
+  return dx * dx + dy * dy;
+}
+
+HOMING_VECTOR_CLONES
+void LowerToDistance(std::span<const Fingerprint> stored, float x, float y,
+                     std::span<float> nearest) {
+  const Fingerprint* const from = stored.data();
+  float* const to = nearest.data();
+  for (std::size_t i = 0; i < stored.size(); ++i) {
+    to[i] = std::min(to[i], SquaredDistance(from[i], x, y));
+  }
 }
 
 // Best P_T first; ties by step, side, landmark.
@@ -73,24 +92,35 @@ void Matcher::Scan(int number, const JourneyMap& map, std::int64_t first, std::i
   }
   const std::size_t before = least_.size();
   least_.resize(before + map.landmarks().size(), 0);
-  for (std::int64_t step = first; step <= last; ++step) {
-    for (const Fingerprint& stored : map.fingerprints(step)) {
-      for (const SeenPlace& place : all_seen_) {
-        const float dx = stored.x - place.x;
-        const float dy = stored.y - place.y;
-        const float squared = dx * dx + dy * dy;
-        if (squared >= reach || map.side_of(stored) != place.side) continue;
-        const SeenLandmark& landmark = *place.landmark;
-        const auto [low, high] = std::minmax(stored.count, landmark.count);
-        const float ratio = static_cast<float>(low) / static_cast<float>(high);
-        const float most = ratio * bound.At(squared) * (1 + kProductRounding);
-        if (double{most} < threshold) continue;
-        const std::size_t of = before + static_cast<std::size_t>(stored.landmark);
-        candidates_.push_back({&stored, &landmark, step, number, of, most});
-        const float least = ratio * bound.LeastAt(squared) * (1 - kProductRounding);
-        least_[of] = std::max(least_[of], least);
-      }
+  if (last < first) return;
+  const std::span<const Fingerprint> all(map.fingerprints(first).begin(),
+                                         map.fingerprints(last).end());
+  FindNearest(all);
+  std::int64_t step = first;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (nearest_[i] >= reach) continue;
+    const Fingerprint& stored = all[i];
+    while (std::to_address(map.fingerprints(step).end()) <= &stored) ++step;
+    for (const SeenPlace& place : all_seen_) {
+      const float squared = SquaredDistance(stored, place.x, place.y);
+      if (squared >= reach || map.side_of(stored) != place.side) continue;
+      const SeenLandmark& landmark = *place.landmark;
+      const auto [low, high] = std::minmax(stored.count, landmark.count);
+      const float ratio = static_cast<float>(low) / static_cast<float>(high);
+      const float most = ratio * bound.At(squared) * (1 + kProductRounding);
+      if (double{most} < threshold) continue;
+      const std::size_t of = before + static_cast<std::size_t>(stored.landmark);
+      candidates_.push_back({&stored, &landmark, step, number, of, most});
+      const float least = ratio * bound.LeastAt(squared) * (1 - kProductRounding);
+      least_[of] = std::max(least_[of], least);
     }
+  }
+}
+
+void Matcher::FindNearest(std::span<const Fingerprint> stored) {
+  nearest_.assign(stored.size(), std::numeric_limits<float>::infinity());
+  for (const SeenPlace& place : all_seen_) {
+    LowerToDistance(stored, place.x, place.y, nearest_);
   }
 }
 

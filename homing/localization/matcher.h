@@ -93,6 +93,8 @@ class Matcher {
   void Clear();
   void Scan(int number, const JourneyMap& map, std::int64_t first, std::int64_t last,
             const SeenSides& seen, double threshold);
+  // Squared distance of each of `stored` from the nearest that is seen.
+  void FindNearest(std::span<const Fingerprint> stored);
   // The P_T that the `most`-th landmark has at least, or the threshold.
   float LeastOfBest(const MatchOptions& options);
   // The best of each landmark that can be among the best.
@@ -100,6 +102,7 @@ class Matcher {
 
   std::vector<std::pair<DeviationModel, std::unique_ptr<const SurvivalBound>>> bounds_;
   std::vector<SeenPlace> all_seen_;
+  std::vector<float> nearest_;
   std::vector<Candidate> candidates_;
   // By landmark over all journeys: what its P_T is at least.
   std::vector<float> least_;
