@@ -33,8 +33,8 @@ float SurvivalBound::ReachOf(double share) const {
       std::ranges::partition_point(table_, [share](float most) { return double{most} >= share; });
   return beyond == table_.end()
              ? std::numeric_limits<float>::infinity()
-             : std::bit_cast<float>(
-                   (kFirst + static_cast<std::int32_t>(beyond - table_.begin())) << kShift);
+             : std::bit_cast<float>((kFirst + static_cast<std::int32_t>(beyond - table_.begin()))
+                                    << kShift);
 }
 
 }  // namespace homing
