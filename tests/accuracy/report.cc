@@ -229,11 +229,8 @@ class Writer {
     }
     report_.markdown += "\n";
     const auto steps = [&all](std::size_t i) { return static_cast<double>(all[i].first); };
-    // A quick run shares its machine with others.
-    if (!IsQuick()) {
-      Add(absl::StrFormat("us a camera at %d steps", all.back().first), all.back().second, 300,
-          false);
-    }
+    Add(absl::StrFormat("us a camera at %d steps", all.back().first), all.back().second, 300,
+        false);
     Add("growth of that over growth of the steps",
         all.back().second / all.front().second / (steps(all.size() - 1) / steps(0)), 1, false);
   }
