@@ -7,6 +7,7 @@
 
 #include "client/command/commands.h"
 #include "client/command/session.h"
+#include "homing/lock_checks.h"
 
 namespace {
 
@@ -32,6 +33,7 @@ void StopAtSignal(const std::stop_source& source) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  homing::SkipLockChecks();
   std::stop_source stop;
   StopAtSignal(stop);
   homing::client::Session session;

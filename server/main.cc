@@ -8,6 +8,7 @@
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 
+#include "homing/lock_checks.h"
 #include "homing/open_files.h"
 #include "server/access_commands.h"
 #include "server/health_check.h"
@@ -62,6 +63,7 @@ int Serve(const homing::server::ServerOptions& options) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  homing::SkipLockChecks();
   spdlog::set_default_logger(spdlog::stderr_color_mt("homing-server"));
   const ServerCommand command = homing::server::ParseCommandLine(argc, argv);
   switch (command.action) {

@@ -1,21 +1,27 @@
 // Measures everything, interleaved; prints a line a bound; writes the report. Run by run.sh.
 // usage: homing_benchmark [--quick] [--report FILE] [--load FILE] [--command TEXT] [--filter REGEX]
 // or: homing_benchmark --copy-journeys DATABASE NUMBER
+// or: homing_benchmark --echo    an echo for load clients, until it is killed
 // --load names a file of lines "RUN COUNTER VALUE", one a repetition: what load clients measured.
 #include <benchmark/benchmark.h>
 #include <sqlite3.h>
+#include <unistd.h>
 
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "absl/strings/str_cat.h"
+#include "homing/lock_checks.h"
+#include "homing/open_files.h"
 #include "tests/benchmark/benchmarks.h"
 #include "tests/benchmark/report.h"
 #include "tests/benchmark/results.h"
 #include "tests/benchmark/rows.h"
+#include "tests/benchmark/stream_server.h"
 
 namespace homing::benchmarks {
 namespace {
@@ -95,6 +101,9 @@ bool CopyJourneys(const std::string& path, int journeys) {
       absl::StrCat("INSERT INTO fingerprints (fingerprint_id, landmark, x, y, count) ", numbers,
                    "SELECT fingerprint_id + ((i - 1) << 27), landmark, x, y, count ",
                    "FROM n, fingerprints WHERE fingerprint_id >> 27 = 1"),
+      absl::StrCat("INSERT INTO profiles (profile_id, cells) ", numbers,
+                   "SELECT profile_id + ((i - 1) << 27), cells ",
+                   "FROM n, profiles WHERE profile_id >> 27 = 1"),
       "COMMIT"};
   for (const std::string& sql : statements) {
     char* message = nullptr;
@@ -104,6 +113,15 @@ bool CopyJourneys(const std::string& path, int journeys) {
   }
   sqlite3_close(database);
   return ok;
+}
+
+int Echo() {
+  RaiseOpenFileLimit();
+  const std::unique_ptr<StreamServer> server = StartEchoServer();
+  std::printf("listening on %s\n", server->address().c_str());
+  std::fflush(stdout);
+  ::pause();
+  return 0;
 }
 
 int Run(const Arguments& arguments) {
@@ -133,7 +151,8 @@ int Run(const Arguments& arguments) {
 }  // namespace homing::benchmarks
 
 int main(int argc, char** argv) {
-  // As the server does; the peers gain by it too.
+  homing::SkipLockChecks();
+  if (argc == 2 && std::string(argv[1]) == "--echo") return homing::benchmarks::Echo();
   if (argc == 4 && std::string(argv[1]) == "--copy-journeys") {
     return homing::benchmarks::CopyJourneys(argv[2], std::atoi(argv[3])) ? 0 : 1;
   }

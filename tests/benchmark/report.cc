@@ -54,6 +54,23 @@ std::string RowTable(const std::vector<Row>& rows) {
   return text;
 }
 
+// What load clients saw, an echo's included: what is left of the machine when nothing is computed or stored.
+std::string LoadTable(const Results& results) {
+  std::string text =
+      "| load | p99, ms | sent late | dropped | KiB a stream |\n|---|---|---|---|---|\n";
+  bool empty = true;
+  for (const std::string run : {"echo_1000", "record_1000", "record_1000_tls", "localize_1000"}) {
+    const auto& counters = results.Of(run).counters;
+    if (counters.empty()) continue;
+    empty = false;
+    absl::StrAppendFormat(&text, "| %s | %.3g | %.0f | %.0f | %.0f |\n", run,
+                          MedianOf(counters.at("p99_ms")), MedianOf(counters.at("late")),
+                          MedianOf(counters.at("dropped")), MedianOf(counters.at("kib_a_stream")));
+  }
+  return empty ? "" : absl::StrCat("\n## Many robots\n\n`echo_1000` is an echo on the same "
+                                   "reactor, threads and pool, under the load of `record_1000`.\n\n", text);
+}
+
 std::string SizeTable(const Results& results) {
   std::string text =
       "| fingerprints | layout | index, us | visited | bytes each | FAISS, us "
@@ -116,7 +133,7 @@ bool WriteReport(const ReportOptions& options, const Results& results,
                                   " straddles it. What has no row here has not been "
                                   "measured.\nRows of one thread compare the time"
                                   " of that thread, rows of many the wall's.\n\nMachine: ",
-                                  Machine(), ".\n\n## Rows\n\n", RowTable(rows));
+                                  Machine(), ".\n\n## Rows\n\n", RowTable(rows), LoadTable(results));
   if (!time_plot.empty()) {
     absl::StrAppend(&text, "\n## The index of all journeys by size\n\n", SizeTable(results),
                     "\n![Time of one query](images/index_time.svg)\n\n"

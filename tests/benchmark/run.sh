@@ -9,7 +9,7 @@ cd "$(dirname "$0")/../.."
 root=$PWD
 quick=
 robots=1000
-seconds=30
+seconds=20
 repeats=5
 report=docs/performance.md
 if [ "${1:-}" = --quick ]; then
@@ -39,12 +39,9 @@ finish() {
 }
 trap finish EXIT
 trap 'exit 130' INT TERM
-# start_server NAME [FLAGS]: on a database of that name, at $address.
-start_server() {
-  name=$1
-  shift
-  "$build/server/homing-server" --listen 127.0.0.1:0 --database "sqlite:$work/$name.db" "$@" \
-    >"$work/server.log" 2>&1 </dev/null &
+# start COMMAND...: a server, which says that it is "listening on" $address.
+start() {
+  "$@" >"$work/server.log" 2>&1 </dev/null &
   server=$!
   address=
   while [ -z "$address" ]; do
@@ -52,6 +49,12 @@ start_server() {
     address=$(sed -n 's/.*listening on \([^ ]*\).*/\1/p' "$work/server.log" | head -n 1)
     [ -n "$address" ] || sleep 0.02
   done
+}
+# start_server NAME [FLAGS]: on a database of that name.
+start_server() {
+  name=$1
+  shift
+  start "$build/server/homing-server" --listen 127.0.0.1:0 --database "sqlite:$work/$name.db" "$@"
 }
 resident_kib() { sed -n 's/^VmRSS:[[:space:]]*\([0-9]*\) kB/\1/p' "/proc/$server/status"; }
 field() { sed -n "s/.*\"$2\":\([0-9.e+-]*\).*/\1/p" "$1"; }
@@ -88,6 +91,9 @@ repeat=0
 while [ "$repeat" -lt "$repeats" ]; do
   repeat=$((repeat + 1))
   echo "load $repeat of $repeats" >&2
+  start "$build/tests/benchmark/homing_benchmark" --echo
+  load echo_1000 ""
+  stop_server
   start_server "plain$repeat"
   load record_1000 ""
   stop_server

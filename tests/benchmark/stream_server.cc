@@ -52,6 +52,13 @@ class EchoStream final
 class EchoService final : public v1::JourneyService::CallbackService {
  public:
   explicit EchoService(server::ServiceCore* core) : core_(core) {}
+  grpc::ServerUnaryReactor* CreateJourney(grpc::CallbackServerContext* context,
+                                          const v1::CreateJourneyRequest* /*request*/,
+                                          v1::Journey* /*response*/) override {
+    grpc::ServerUnaryReactor* const reactor = context->DefaultReactor();
+    reactor->Finish(grpc::Status::OK);
+    return reactor;
+  }
   grpc::ServerBidiReactor<v1::RecordJourneyRequest, v1::RecordJourneyResponse>* RecordJourney(
       grpc::CallbackServerContext* context) override {
     const auto stream = std::make_shared<EchoStream>(core_, context);
