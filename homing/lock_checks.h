@@ -6,8 +6,8 @@
 
 namespace homing {
 
-// Debian builds abseil with assertions: each lock that gRPC takes then looks for cycles in a graph of all locks, under
-// one lock of the process. For main().
+// Debian builds abseil with assertions: each lock that gRPC takes then looks for cycles in a graph
+// of all locks, under one lock of the process. For main().
 inline void SkipLockChecks() {
   absl::SetMutexDeadlockDetectionMode(absl::OnDeadlockCycle::kIgnore);
 }

@@ -54,7 +54,8 @@ std::string RowTable(const std::vector<Row>& rows) {
   return text;
 }
 
-// What load clients saw, an echo's included: what is left of the machine when nothing is computed or stored.
+// What load clients saw, an echo's included: what is left of the machine when nothing is computed
+// or stored.
 std::string LoadTable(const Results& results) {
   std::string text =
       "| load | p99, ms | sent late | dropped | KiB a stream |\n|---|---|---|---|---|\n";
@@ -67,8 +68,11 @@ std::string LoadTable(const Results& results) {
                           MedianOf(counters.at("p99_ms")), MedianOf(counters.at("late")),
                           MedianOf(counters.at("dropped")), MedianOf(counters.at("kib_a_stream")));
   }
-  return empty ? "" : absl::StrCat("\n## Many robots\n\n`echo_1000` is an echo on the same "
-                                   "reactor, threads and pool, under the load of `record_1000`.\n\n", text);
+  return empty ? ""
+               : absl::StrCat(
+                     "\n## Many robots\n\n`echo_1000` is an echo on the same "
+                     "reactor, threads and pool, under the load of `record_1000`.\n\n",
+                     text);
 }
 
 std::string SizeTable(const Results& results) {
@@ -126,14 +130,15 @@ bool WriteReport(const ReportOptions& options, const Results& results,
                CurveOf(results, "index_city", "#2ca02c", "bytes")});
   const std::filesystem::path path(options.path);
   const auto images = path.parent_path() / "images";
-  std::string text = absl::StrCat("# Performance\n\nWritten by `", options.command,
-                                  "`. A row is `short` only if its 95 % bootstrap"
-                                  " interval over interleaved\nrepeats lies wholly on the wrong "
-                                  "side of its bound, `unsure` if it"
-                                  " straddles it. What has no row here has not been "
-                                  "measured.\nRows of one thread compare the time"
-                                  " of that thread, rows of many the wall's.\n\nMachine: ",
-                                  Machine(), ".\n\n## Rows\n\n", RowTable(rows), LoadTable(results));
+  std::string text =
+      absl::StrCat("# Performance\n\nWritten by `", options.command,
+                   "`. A row is `short` only if its 95 % bootstrap"
+                   " interval over interleaved\nrepeats lies wholly on the wrong "
+                   "side of its bound, `unsure` if it"
+                   " straddles it. What has no row here has not been "
+                   "measured.\nRows of one thread compare the time"
+                   " of that thread, rows of many the wall's.\n\nMachine: ",
+                   Machine(), ".\n\n## Rows\n\n", RowTable(rows), LoadTable(results));
   if (!time_plot.empty()) {
     absl::StrAppend(&text, "\n## The index of all journeys by size\n\n", SizeTable(results),
                     "\n![Time of one query](images/index_time.svg)\n\n"
