@@ -20,8 +20,8 @@
 namespace homing::server {
 
 // Made by OpenBidiStream; holds itself until gRPC has done with it. gRPC's threads only queue;
-// reading stops while kReadAhead messages or kReadAheadBytes bytes are not yet answered, so that
-// HTTP/2 flow control holds the client back.
+// reading stops while kReadAhead messages (fewer where there are many streams) or kReadAheadBytes
+// bytes are not yet answered, so that HTTP/2 flow control holds the client back.
 template <typename Request, typename Response>
 class BidiStream : public grpc::ServerBidiReactor<Request, Response>,
                    public OpenStream,
@@ -154,6 +154,9 @@ class BidiStream : public grpc::ServerBidiReactor<Request, Response>,
   // Enough that a commit's time is shared by many observations; of frames, bytes come first.
   static constexpr std::size_t kReadAhead = 256;
   static constexpr std::size_t kReadAheadBytes = 4 << 20;
+  // Of all streams together: fewer than may wait for their commit, so that a server with too much
+  // to do slows its clients down and refuses nothing.
+  static constexpr std::size_t kReadAheadOfAll = 24576;
 
   void HandleGuarded(const Request& request) {
     {
@@ -170,8 +173,9 @@ class BidiStream : public grpc::ServerBidiReactor<Request, Response>,
 
   // The functions below: REQUIRES mutex_.
   void ReadNext() {
+    const std::size_t most = core_->streams.ShareOf(kReadAheadOfAll, kReadAhead);
     const bool full =
-        unanswered_.size() + writes_.size() >= kReadAhead || unanswered_bytes_ >= kReadAheadBytes;
+        unanswered_.size() + writes_.size() >= most || unanswered_bytes_ >= kReadAheadBytes;
     if (reading_ || half_closed_ || end_status_ || finished_ || full) {
       return;
     }

@@ -1,11 +1,14 @@
 #include "server/stream_registry.h"
 
+#include <algorithm>
+
 namespace homing::server {
 
 bool StreamRegistry::Add(const std::shared_ptr<OpenStream>& stream) {
   const std::lock_guard lock(mutex_);
   if (!draining_) {
     streams_.insert(stream);
+    size_ = streams_.size();
   }
   return !draining_;
 }
@@ -13,6 +16,7 @@ bool StreamRegistry::Add(const std::shared_ptr<OpenStream>& stream) {
 void StreamRegistry::Remove(const std::shared_ptr<OpenStream>& stream) {
   const std::lock_guard lock(mutex_);
   streams_.erase(stream);
+  size_ = streams_.size();
   removed_.notify_all();
 }
 
@@ -47,6 +51,10 @@ void StreamRegistry::AwaitNone() {
 bool StreamRegistry::draining() const {
   const std::lock_guard lock(mutex_);
   return draining_;
+}
+
+std::size_t StreamRegistry::ShareOf(std::size_t all, std::size_t most) const {
+  return std::clamp<std::size_t>(all / std::max<std::size_t>(1, size_), 1, most);
 }
 
 }  // namespace homing::server

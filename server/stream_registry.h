@@ -2,7 +2,9 @@
 #ifndef SERVER_STREAM_REGISTRY_H_
 #define SERVER_STREAM_REGISTRY_H_
 
+#include <atomic>
 #include <condition_variable>
+#include <cstddef>
 #include <memory>
 #include <mutex>
 #include <set>
@@ -31,11 +33,15 @@ class StreamRegistry {
   void Tick();
   // Until every stream was removed.
   void AwaitNone();
+  // How much of `all` each open stream may have: at least 1, at most `most`. Without a lock, so
+  // that each message may ask.
+  std::size_t ShareOf(std::size_t all, std::size_t most) const;
 
  private:
   mutable std::mutex mutex_;
   std::condition_variable removed_;
   std::set<std::shared_ptr<OpenStream>> streams_;
+  std::atomic<std::size_t> size_ = 0;
   bool draining_ = false;
 };
 
