@@ -1,6 +1,7 @@
 // How the tree grows; fingerprint_tree.cc searches it.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "homing/localization/fingerprint_tree.h"
 
@@ -9,6 +10,46 @@ namespace {
 
 // An octave of the number of vectors is worth as much as this many pixels when a bucket is split.
 constexpr float kPixelsPerOctave = 24;
+
+// Where entries are cut in two: those whose key is below `split` come first, and are so many.
+struct Cut {
+  float split = 0;
+  std::size_t left = 0;
+};
+
+// Near `middle`; the lowest, of key `low`, are never alone on the right. One function a key, so
+// that each is read in place.
+template <typename Key>
+Cut CutAt(std::span<TreeEntry> entries, std::size_t middle, float low, Key key) {
+  const auto at = entries.begin() + static_cast<std::ptrdiff_t>(middle);
+  std::nth_element(entries.begin(), at, entries.end(),
+                   [key](const TreeEntry& a, const TreeEntry& b) { return key(a) < key(b); });
+  float split = key(*at);
+  // What comes after is not below.
+  auto end = at;
+  if (split == low) {
+    split = std::numeric_limits<float>::infinity();
+    for (const TreeEntry& entry : entries) {
+      split = key(entry) > low ? std::min(split, key(entry)) : split;
+    }
+    end = entries.end();
+  }
+  const auto right = std::partition(entries.begin(), end,
+                                    [&](const TreeEntry& entry) { return key(entry) < split; });
+  return {split, static_cast<std::size_t>(right - entries.begin())};
+}
+
+Cut CutBy(std::uint32_t dimension, std::span<TreeEntry> entries, std::size_t middle, float low) {
+  switch (dimension) {
+    case 0:
+      return CutAt(entries, middle, low, [](const TreeEntry& entry) { return entry.x; });
+    case 1:
+      return CutAt(entries, middle, low, [](const TreeEntry& entry) { return entry.y; });
+    default:
+      return CutAt(entries, middle, low,
+                   [](const TreeEntry& entry) { return static_cast<float>(entry.count); });
+  }
+}
 
 }  // namespace
 
@@ -158,22 +199,10 @@ std::uint32_t FingerprintTree::BuildTree(std::span<TreeEntry> entries) {
   if (dimension == kDimensions) {
     return BuildChain(entries);
   }
-  const auto key = [dimension](const TreeEntry& entry) { return KeysOf(entry)[dimension]; };
   // A whole number of buckets on the left.
   const std::size_t buckets = (entries.size() + kBuilt - 1) / kBuilt;
-  const auto middle = entries.begin() + static_cast<std::ptrdiff_t>(buckets / 2 * kBuilt);
-  std::nth_element(entries.begin(), middle, entries.end(),
-                   [key](const TreeEntry& a, const TreeEntry& b) { return key(a) < key(b); });
-  float split = key(*middle);
-  if (split == box.low[dimension]) {
-    split = box.high[dimension];
-    for (const TreeEntry& entry : entries) {
-      split = key(entry) > box.low[dimension] ? std::min(split, key(entry)) : split;
-    }
-  }
-  const auto right = std::partition(entries.begin(), entries.end(),
-                                    [&](const TreeEntry& entry) { return key(entry) < split; });
-  const auto left_size = static_cast<std::size_t>(right - entries.begin());
+  const auto [split, left_size] =
+      CutBy(dimension, entries, buckets / 2 * kBuilt, box.low[dimension]);
   const std::uint32_t node = nodes_.Add({split, dimension, kNone, kNone});
   const std::uint32_t left_tree = BuildTree(entries.first(left_size));
   nodes_[node].left = left_tree;

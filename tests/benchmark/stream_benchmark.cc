@@ -41,9 +41,10 @@ using Requests = std::vector<v1::RecordJourneyRequest>;
 
 Requests FrameRequests() {
   Requests requests;
+  std::int64_t sequence = 0;
   for (const cv::Mat& frame : DrawFrames(kSize, kFrames)) {
     *requests.emplace_back().mutable_observation() =
-        wire::ToProto(FrameObservation(static_cast<std::int64_t>(requests.size()) - 1, frame));
+        wire::ToProto(FrameObservation(sequence++, frame));
   }
   return requests;
 }
