@@ -9,7 +9,7 @@ cd "$(dirname "$0")/../.."
 root=$PWD
 quick=
 robots=1000
-seconds=20
+seconds=30
 repeats=5
 report=docs/performance.md
 if [ "${1:-}" = --quick ]; then
