@@ -75,9 +75,8 @@ absl::StatusOr<std::string> ReadToken(const ConnectionOptions& options) {
   return token;
 }
 
-grpc::ChannelArguments MakeArguments(const ConnectionOptions& options) {
+grpc::ChannelArguments MakeArguments() {
   grpc::ChannelArguments arguments;
-  arguments.SetInt(GRPC_ARG_USE_LOCAL_SUBCHANNEL_POOL, options.own_connection ? 1 : 0);
   // A dead link shows itself within half a minute even when nothing is sent.
   arguments.SetInt(GRPC_ARG_KEEPALIVE_TIME_MS, 20000);
   arguments.SetInt(GRPC_ARG_KEEPALIVE_TIMEOUT_MS, 10000);
@@ -101,12 +100,11 @@ absl::StatusOr<Connection> Connection::Open(const ConnectionOptions& options) {
   HOMING_ASSIGN_OR_RETURN(const auto credentials, MakeCredentials(options));
   HOMING_ASSIGN_OR_RETURN(const std::string token, ReadToken(options));
   if (token.empty()) {
-    return Connection(
-        options, grpc::CreateCustomChannel(options.address, credentials, MakeArguments(options)));
+    return Connection(options,
+                      grpc::CreateCustomChannel(options.address, credentials, MakeArguments()));
   }
-  return Connection(options,
-                    grpc::experimental::CreateCustomChannelWithInterceptors(
-                        options.address, credentials, MakeArguments(options), SendToken(token)));
+  return Connection(options, grpc::experimental::CreateCustomChannelWithInterceptors(
+                                 options.address, credentials, MakeArguments(), SendToken(token)));
 }
 
 absl::Status Connection::WaitForServer() const {

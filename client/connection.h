@@ -23,8 +23,6 @@ struct ConnectionOptions {
   std::string tls_ca;
   std::string tls_cert;
   std::string tls_key;
-  // Shares its connection with no other channel of this program.
-  bool own_connection = false;
   // File of a bearer token, for robots without a certificate. Sent with every call; without TLS
   // only to this machine, unless `insecure`.
   std::string token_file;

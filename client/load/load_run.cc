@@ -123,8 +123,8 @@ struct Robots {
 };
 
 template <typename Service>
-absl::StatusOr<Robots<typename Service::Stub>> Connect(ConnectionOptions options, int robots) {
-  options.own_connection = true;
+absl::StatusOr<Robots<typename Service::Stub>> Connect(const ConnectionOptions& options,
+                                                       int robots) {
   Robots<typename Service::Stub> all;
   for (int i = 0; i < robots; ++i) {
     HOMING_ASSIGN_OR_RETURN(Connection connection, Connection::Open(options));

@@ -85,7 +85,10 @@ absl::StatusOr<client::Connection> Connect(const std::string& address,
   client::ConnectionOptions options;
   options.address = address;
   options.retry_for = retry_for;
-  return client::Connection::Open(options);
+  HOMING_ASSIGN_OR_RETURN(client::Connection connection, client::Connection::Open(options));
+  // One that does not try again must at least not miss the server (tests/support/connected.h).
+  if (retry_for == retry_for.zero()) HOMING_RETURN_IF_ERROR(connection.WaitForServer());
+  return connection;
 }
 
 std::string WriterOf(const RobotOptions& options) { return absl::StrCat("robot-", options.robot); }

@@ -10,6 +10,7 @@
 #include "server/health_check.h"
 #include "tests/server/every_rpc.h"
 #include "tests/server/server_fixture.h"
+#include "tests/support/connected.h"
 #include "tests/support/status_matchers.h"
 
 namespace homing::server {
@@ -81,7 +82,7 @@ class AccessTableTest : public ServerTest, public ::testing::WithParamInterface<
   // Ready to search all journeys.
   void StartGuarded() {
     StartServer();
-    channel_ = grpc::CreateChannel(server_->address(), grpc::InsecureChannelCredentials());
+    channel_ = ConnectedChannel(server_->address());
     const auto search = [this] { return As("operators/chief").Match("robots/-/journeys/-"); };
     while (search().error_code() == grpc::StatusCode::UNAVAILABLE) {
       std::this_thread::sleep_for(std::chrono::milliseconds(5));

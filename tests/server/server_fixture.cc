@@ -4,6 +4,7 @@
 
 #include "google/rpc/error_details.pb.h"
 #include "proto/wire/observation_conversion.h"
+#include "tests/support/connected.h"
 #include "tests/support/status_matchers.h"
 
 namespace homing::server {
@@ -131,8 +132,7 @@ void ServerTest::StartServer() {
 void ServerTest::ConnectTo(const std::string& address) {
   grpc::ChannelArguments arguments;
   arguments.SetMaxReceiveMessageSize(-1);
-  const auto channel =
-      grpc::CreateCustomChannel(address, grpc::InsecureChannelCredentials(), arguments);
+  const auto channel = ConnectedChannel(address, arguments);
   journeys_ = v1::JourneyService::NewStub(channel);
   homing_ = v1::HomingService::NewStub(channel);
   models_ = v1::DeviationModelService::NewStub(channel);

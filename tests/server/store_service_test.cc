@@ -4,6 +4,7 @@
 
 #include "tests/server/every_rpc.h"
 #include "tests/server/server_fixture.h"
+#include "tests/support/connected.h"
 #include "tests/support/status_matchers.h"
 
 namespace homing::server {
@@ -14,7 +15,7 @@ using ::testing::HasSubstr;
 class StoreServiceTest : public ServerTest {
  protected:
   grpc::Status BackUp(std::string* file) {
-    EveryRpc rpc(grpc::CreateChannel(server_->address(), grpc::InsecureChannelCredentials()), "");
+    EveryRpc rpc(ConnectedChannel(server_->address()), "");
     return rpc.BackUp(file);
   }
 };
