@@ -5,6 +5,8 @@
 
 #include <grpcpp/support/server_callback.h>
 
+#include <atomic>
+#include <chrono>
 #include <deque>
 #include <memory>
 #include <mutex>
@@ -19,9 +21,10 @@
 
 namespace homing::server {
 
-// Made by OpenBidiStream; holds itself until gRPC has done with it. gRPC's threads only queue;
-// reading stops while kReadAhead messages (fewer where there are many streams) or kReadAheadBytes
-// bytes are not yet answered, so that HTTP/2 flow control holds the client back.
+// Made by OpenBidiStream; holds itself until gRPC has done with it. gRPC's threads handle what is
+// quick and queue the rest; reading stops while kReadAhead messages (fewer where there are many
+// streams) or kReadAheadBytes bytes are not yet answered, so that HTTP/2 flow control holds the
+// client back.
 template <typename Request, typename Response>
 class BidiStream : public grpc::ServerBidiReactor<Request, Response>,
                    public OpenStream,
@@ -72,19 +75,29 @@ class BidiStream : public grpc::ServerBidiReactor<Request, Response>,
 
   void OnReadDone(bool ok) override {
     watch_.Moved();
-    const std::lock_guard lock(mutex_);
-    reading_ = false;
-    if (!ok) {
-      half_closed_ = true;
-      FinishIfOver();
-      return;
+    WorkerPool::Task task;
+    {
+      const std::lock_guard lock(mutex_);
+      reading_ = false;
+      if (!ok) {
+        half_closed_ = true;
+        FinishIfOver();
+        return;
+      }
+      const std::size_t bytes = incoming_->ByteSizeLong();
+      unanswered_.push_back(bytes);
+      unanswered_bytes_ += bytes;
+      task = [self = this->shared_from_this(), request = std::move(incoming_)] {
+        self->HandleGuarded(*request);
+      };
+      if (!quick_ || bytes > kHereBytes) {
+        strand_->Post(std::move(task));
+        ReadNext();
+        return;
+      }
     }
-    const std::size_t bytes = incoming_->ByteSizeLong();
-    unanswered_.push_back(bytes);
-    unanswered_bytes_ += bytes;
-    strand_->Post([self = this->shared_from_this(), request = std::move(incoming_)] {
-      self->HandleGuarded(*request);
-    });
+    strand_->RunOrPost(std::move(task));
+    const std::lock_guard lock(mutex_);
     ReadNext();
   }
 
@@ -157,6 +170,10 @@ class BidiStream : public grpc::ServerBidiReactor<Request, Response>,
   // Of all streams together: fewer than may wait for their commit, so that a server with too much
   // to do slows its clients down and refuses nothing.
   static constexpr std::size_t kReadAheadOfAll = 24576;
+  // What is handled on the thread that read it: small messages of a stream whose last took no
+  // longer. To wake another thread costs as much as to handle many a message.
+  static constexpr std::size_t kHereBytes = 65536;
+  static constexpr std::chrono::microseconds kQuick{500};
 
   void HandleGuarded(const Request& request) {
     {
@@ -165,7 +182,9 @@ class BidiStream : public grpc::ServerBidiReactor<Request, Response>,
         return;
       }
     }
+    const auto begin = std::chrono::steady_clock::now();
     const absl::Status status = Guarded([&] { return Handle(request); });
+    quick_ = std::chrono::steady_clock::now() - begin < kQuick;
     if (!status.ok()) {
       End(status);
     }
@@ -236,6 +255,7 @@ class BidiStream : public grpc::ServerBidiReactor<Request, Response>,
   std::deque<std::size_t> unanswered_;
   std::size_t unanswered_bytes_ = 0;
   std::optional<absl::Status> end_status_;
+  std::atomic<bool> quick_ = false;
   bool reading_ = false;
   bool writing_ = false;
   bool half_closed_ = false;

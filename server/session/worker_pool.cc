@@ -86,6 +86,30 @@ void Strand::Post(WorkerPool::Task task) {
     }
     scheduled_ = true;
   }
+  GoOn();
+}
+
+void Strand::RunOrPost(WorkerPool::Task task) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (scheduled_) {
+      tasks_.push_back(std::move(task));
+      return;
+    }
+    scheduled_ = true;
+  }
+  task();
+  {
+    const std::lock_guard lock(mutex_);
+    scheduled_ = !tasks_.empty();
+    if (!scheduled_) {
+      return;
+    }
+  }
+  GoOn();
+}
+
+void Strand::GoOn() {
   pool_->Run([self = shared_from_this()] { self->RunSome(); });
 }
 
@@ -103,7 +127,7 @@ void Strand::RunSome() {
     }
     task();
   }
-  pool_->Run([self = shared_from_this()] { self->RunSome(); });
+  GoOn();
 }
 
 }  // namespace homing::server

@@ -44,16 +44,19 @@ class WorkerPool {
   std::vector<std::thread> threads_;
 };
 
-// Tasks of one stream: one at a time, in the order posted, on the pool's threads. Thread-safe.
+// Tasks of one stream: one at a time, in the order posted. Thread-safe.
 class Strand : public std::enable_shared_from_this<Strand> {
  public:
   // `pool` must outlive all tasks.
   explicit Strand(WorkerPool* pool) : pool_(pool) {}
 
   void Post(WorkerPool::Task task);
+  // Runs it before it returns, on the caller's thread, unless another one runs or waits.
+  void RunOrPost(WorkerPool::Task task);
 
  private:
   void RunSome();
+  void GoOn();
 
   WorkerPool* const pool_;
   std::mutex mutex_;

@@ -5,6 +5,7 @@
 #include <atomic>
 #include <future>
 #include <memory>
+#include <thread>
 #include <vector>
 
 namespace homing::server {
@@ -37,6 +38,28 @@ TEST(WorkerPoolTest, RefusesAboveItsBound) {
   release.set_value();
 }
 
+TEST(StrandTest, RunsOnTheCallersThreadWhenNothingElseRunsOrWaits) {
+  WorkerPool pool(1);
+  const auto strand = std::make_shared<Strand>(&pool);
+  std::thread::id here;
+  strand->RunOrPost([&] { here = std::this_thread::get_id(); });
+  EXPECT_EQ(here, std::this_thread::get_id());
+}
+
+TEST(StrandTest, WhatComesWhileTheCallerRunsATaskWaitsForItsEnd) {
+  std::vector<int> order;
+  {
+    WorkerPool pool(2);
+    const auto strand = std::make_shared<Strand>(&pool);
+    strand->RunOrPost([&] {
+      strand->Post([&] { order.push_back(1); });
+      strand->RunOrPost([&] { order.push_back(2); });
+      order.push_back(0);
+    });
+  }
+  EXPECT_EQ(order, (std::vector<int>{0, 1, 2}));
+}
+
 TEST(StrandTest, RunsInOrderAndOneAtATimeOnManyThreads) {
   constexpr int kStrands = 8;
   constexpr int kTasks = 300;
@@ -46,7 +69,12 @@ TEST(StrandTest, RunsInOrderAndOneAtATimeOnManyThreads) {
     for (int s = 0; s < kStrands; ++s) {
       const auto strand = std::make_shared<Strand>(&pool);
       for (int i = 0; i < kTasks; ++i) {
-        strand->Post([&order = seen[static_cast<std::size_t>(s)], i] { order.push_back(i); });
+        const auto task = [&order = seen[static_cast<std::size_t>(s)], i] { order.push_back(i); };
+        if (i % 3 == 0) {
+          strand->RunOrPost(task);
+        } else {
+          strand->Post(task);
+        }
       }
     }
   }
