@@ -34,10 +34,6 @@ absl::StatusOr<std::string> ReadPem(const std::string& flag, const std::string& 
   return text.str();
 }
 
-bool UsesTls(const ConnectionOptions& options) {
-  return !options.tls_ca.empty() || !options.tls_cert.empty() || !options.tls_key.empty();
-}
-
 bool IsThisMachine(const std::string& address) {
   return absl::StartsWith(address, "127.0.0.1:") || absl::StartsWith(address, "localhost:") ||
          absl::StartsWith(address, "[::1]:") || absl::StartsWith(address, "unix:");
@@ -58,23 +54,6 @@ absl::StatusOr<std::shared_ptr<grpc::ChannelCredentials>> MakeCredentials(
   return grpc::SslCredentials(ssl);
 }
 
-// "" without a token file.
-absl::StatusOr<std::string> ReadToken(const ConnectionOptions& options) {
-  HOMING_ASSIGN_OR_RETURN(const std::string text, ReadPem("--token-file", options.token_file));
-  const std::string token(absl::StripAsciiWhitespace(text));
-  const bool printable = std::all_of(token.begin(), token.end(), absl::ascii_isgraph);
-  if (!options.token_file.empty() && (token.empty() || !printable)) {
-    return absl::InvalidArgumentError(
-        absl::StrCat("--token-file: ", options.token_file, " does not hold one token"));
-  }
-  if (!token.empty() && !UsesTls(options) && !options.insecure && !IsThisMachine(options.address)) {
-    return absl::InvalidArgumentError(
-        absl::StrCat("--token-file: the token would be sent to ", options.address,
-                     " in plain text; give --tls-ca, or --insecure if the network is trusted"));
-  }
-  return token;
-}
-
 grpc::ChannelArguments MakeArguments() {
   grpc::ChannelArguments arguments;
   // A dead link shows itself within half a minute even when nothing is sent.
@@ -92,6 +71,26 @@ grpc::ChannelArguments MakeArguments() {
 }
 
 }  // namespace
+
+bool UsesTls(const ConnectionOptions& options) {
+  return !options.tls_ca.empty() || !options.tls_cert.empty() || !options.tls_key.empty();
+}
+
+absl::StatusOr<std::string> ReadToken(const ConnectionOptions& options) {
+  HOMING_ASSIGN_OR_RETURN(const std::string text, ReadPem("--token-file", options.token_file));
+  const std::string token(absl::StripAsciiWhitespace(text));
+  const bool printable = std::all_of(token.begin(), token.end(), absl::ascii_isgraph);
+  if (!options.token_file.empty() && (token.empty() || !printable)) {
+    return absl::InvalidArgumentError(
+        absl::StrCat("--token-file: ", options.token_file, " does not hold one token"));
+  }
+  if (!token.empty() && !UsesTls(options) && !options.insecure && !IsThisMachine(options.address)) {
+    return absl::InvalidArgumentError(
+        absl::StrCat("--token-file: the token would be sent to ", options.address,
+                     " in plain text; give --tls-ca, or --insecure if the network is trusted"));
+  }
+  return token;
+}
 
 Connection::Connection(ConnectionOptions options, std::shared_ptr<grpc::Channel> channel)
     : options_(std::move(options)), channel_(std::move(channel)) {}

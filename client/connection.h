@@ -33,6 +33,11 @@ struct ConnectionOptions {
   std::chrono::milliseconds retry_for{60000};
 };
 
+bool UsesTls(const ConnectionOptions& options);
+// "" without a token file. INVALID_ARGUMENT: no token, or one that would leave this machine in
+// plain text; NOT_FOUND.
+absl::StatusOr<std::string> ReadToken(const ConnectionOptions& options);
+
 // Thread-safe.
 class Connection {
  public:

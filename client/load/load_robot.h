@@ -2,19 +2,19 @@
 #ifndef CLIENT_LOAD_LOAD_ROBOT_H_
 #define CLIENT_LOAD_LOAD_ROBOT_H_
 
-#include <grpcpp/client_context.h>
-#include <grpcpp/support/client_callback.h>
-
 #include <chrono>
-#include <condition_variable>
 #include <cstdint>
 #include <deque>
-#include <functional>
-#include <mutex>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 #include "absl/status/status.h"
+#include "absl/status/statusor.h"
+#include "client/load/http2_call.h"
 #include "client/load/latency_histogram.h"
-#include "client/rpc_status.h"
 #include "homing/v1/homing_service.pb.h"
 #include "homing/v1/journey_service.pb.h"
 
@@ -41,111 +41,101 @@ inline std::int64_t AnsweredSequence(const v1::LocalizeResponse& response) {
 }
 
 // Latencies run from the time at which an observation was due, not from the write: a queue that
-// forms anywhere counts.
+// forms anywhere counts. For one thread.
 template <typename Request, typename Response>
-class LoadRobot final : public grpc::ClientBidiReactor<Request, Response> {
+class LoadRobot {
  public:
-  using Fill = std::function<void(std::int64_t sequence, Request*)>;
-  using Open = std::function<void(grpc::ClientContext*, LoadRobot*)>;
+  // What robots send, over and over: requests without their observation's sequence.
+  using Requests = std::vector<std::string>;
 
-  // `fill` makes the request of an observation; called on gRPC's threads and on that of Due.
-  LoadRobot(Request config, Fill fill) : fill_(std::move(fill)), request_(std::move(config)) {}
-
-  // `open` names the method. The first message is the config.
-  void Start(const Open& open) {
-    open(&context_, this);
-    this->StartRead(&response_);
-    this->StartWrite(&request_);
-    this->StartCall();
+  // Calls `method` and sends the config. `requests` must outlive it.
+  static absl::StatusOr<std::unique_ptr<LoadRobot>> Start(const Http2Endpoint& endpoint,
+                                                          const std::string& method,
+                                                          const Request& config,
+                                                          const Requests* requests) {
+    std::unique_ptr<LoadRobot> robot(new LoadRobot(requests));
+    auto call = Http2Call::Open(endpoint, method, [robot = robot.get()](std::string_view message) {
+      robot->Answered(message);
+    });
+    if (!call.ok()) return call.status();
+    robot->call_ = *std::move(call);
+    robot->call_->Queue(config.SerializeAsString());
+    robot->call_->Flush();
+    return robot;
   }
+
+  int socket() const { return call_->socket(); }
+  bool done() const { return call_->done(); }
 
   // The next observation is to leave at `time`.
   void Due(LoadClock::time_point time) {
-    const std::lock_guard lock(mutex_);
     due_.push_back(time);
-    WriteNext();
+    SendDue();
   }
 
   // Nothing more comes.
   void HalfClose() {
-    const std::lock_guard lock(mutex_);
     closing_ = true;
-    WriteNext();
+    SendDue();
   }
 
-  // Waits for the end, and breaks the stream off at `deadline`.
-  LoadCounts Await(LoadClock::time_point deadline) {
-    std::unique_lock lock(mutex_);
-    if (!changed_.wait_until(lock, deadline, [this] { return done_; })) {
-      context_.TryCancel();
-      changed_.wait(lock, [this] { return done_; });
-    }
+  // The socket has something, or takes something again.
+  void Advance(LoadClock::time_point now) {
+    now_ = now;
+    call_->Receive();
+    SendDue();
+  }
+
+  // Breaks the stream off if it has not ended.
+  LoadCounts End() {
+    call_->Cancel();
+    counts_.status = call_->status();
     return counts_;
   }
 
-  void OnWriteDone(bool ok) override {
-    const std::lock_guard lock(mutex_);
-    writing_ = !ok;
-    WriteNext();
-  }
-
-  void OnReadDone(bool ok) override {
-    if (!ok) return;
-    const LoadClock::time_point now = LoadClock::now();
-    {
-      const std::lock_guard lock(mutex_);
-      if (AnsweredSequence(response_) >= 0 && !waiting_.empty()) {
-        counts_.latency.Add(now - waiting_.front());
-        waiting_.pop_front();
-        ++counts_.answered;
-      }
-    }
-    this->StartRead(&response_);
-  }
-
-  void OnDone(const grpc::Status& status) override {
-    const std::lock_guard lock(mutex_);
-    counts_.status = FromGrpc(status);
-    done_ = true;
-    changed_.notify_all();
-  }
-
  private:
-  // REQUIRES: mutex_.
-  void WriteNext() {
-    if (writing_ || done_) return;
-    if (due_.empty()) {
-      if (closing_ && !half_closed_) {
-        half_closed_ = true;
-        this->StartWritesDone();
-      }
-      return;
+  explicit LoadRobot(const Requests* requests) : requests_(*requests) {}
+
+  void SendDue() {
+    while (!due_.empty() && call_->sent_all() && !call_->done()) {
+      constexpr std::chrono::milliseconds kLate{10};
+      if (LoadClock::now() - due_.front() > kLate) ++counts_.late;
+      waiting_.push_back(due_.front());
+      due_.pop_front();
+      const std::string& request =
+          requests_[static_cast<std::size_t>(counts_.sent) % requests_.size()];
+      // A message's parts may come one after the other: protobuf joins them.
+      numbered_.mutable_observation()->set_sequence(counts_.sent++);
+      call_->Queue(request, numbered_.SerializeAsString());
+      call_->Flush();
     }
-    constexpr std::chrono::milliseconds kLate{10};
-    if (LoadClock::now() - due_.front() > kLate) ++counts_.late;
-    waiting_.push_back(due_.front());
-    due_.pop_front();
-    fill_(counts_.sent++, &request_);
-    writing_ = true;
-    this->StartWrite(&request_);
+    if (closing_ && due_.empty()) {
+      closing_ = false;
+      call_->HalfClose();
+      call_->Flush();
+    }
   }
 
-  const Fill fill_;
-  grpc::ClientContext context_;
-  Request request_;
-  Response response_;
+  void Answered(std::string_view message) {
+    if (!response_.ParseFromArray(message.data(), static_cast<int>(message.size()))) {
+      return call_->Cancel();
+    }
+    if (AnsweredSequence(response_) < 0 || waiting_.empty()) return;
+    counts_.latency.Add(now_ - waiting_.front());
+    waiting_.pop_front();
+    ++counts_.answered;
+  }
 
-  std::mutex mutex_;
-  std::condition_variable changed_;
+  const Requests& requests_;
+  std::unique_ptr<Http2Call> call_;
+  Request numbered_;
+  Response response_;
+  LoadClock::time_point now_;
   // Times of those not yet sent, and of those not yet answered.
   std::deque<LoadClock::time_point> due_;
   std::deque<LoadClock::time_point> waiting_;
   LoadCounts counts_;
-  // The config is under way from the start.
-  bool writing_ = true;
   bool closing_ = false;
-  bool half_closed_ = false;
-  bool done_ = false;
 };
 
 }  // namespace homing::client

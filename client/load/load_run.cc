@@ -1,6 +1,10 @@
 #include "client/load/load_run.h"
 
+#include <sys/epoll.h>
+#include <unistd.h>
+
 #include <algorithm>
+#include <array>
 #include <memory>
 #include <optional>
 #include <thread>
@@ -14,14 +18,9 @@
 #include "homing/open_files.h"
 #include "homing/range_check.h"
 #include "homing/status_macros.h"
-#include "homing/v1/homing_service.grpc.pb.h"
-#include "homing/v1/journey_service.grpc.pb.h"
 
 namespace homing::client {
 namespace {
-
-using RecordRobot = LoadRobot<v1::RecordJourneyRequest, v1::RecordJourneyResponse>;
-using LocalizeRobot = LoadRobot<v1::LocalizeRequest, v1::LocalizeResponse>;
 
 constexpr char kWriter[] = "bench";
 constexpr char kJourney[] = "load";
@@ -46,8 +45,9 @@ class SceneStream final : public ObservationStream {
   SceneStream(const LoadScene* scene, int steps) : scene_(scene), steps_(steps) {}
   absl::StatusOr<std::optional<v1::Observation>> Next() override {
     if (next_ >= steps_) return std::nullopt;
-    v1::Observation observation;
-    scene_->Fill(next_++, &observation);
+    const auto& all = scene_->observations();
+    v1::Observation observation = all[static_cast<std::size_t>(next_) % all.size()];
+    observation.set_sequence(next_++);
     return observation;
   }
   bool Seek(std::int64_t sequence) override {
@@ -116,99 +116,139 @@ absl::Status CreateJourneys(const Connection& connection, const LoadOptions& opt
   return absl::OkStatus();
 }
 
-template <typename Stub>
-struct Robots {
-  std::vector<Connection> connections;
-  std::vector<std::unique_ptr<Stub>> stubs;
+template <typename Robot>
+class Drive {
+ public:
+  explicit Drive(const LoadOptions& options) : options_(options), epoll_(epoll_create1(0)) {}
+  ~Drive() { close(epoll_); }
+  Drive(const Drive&) = delete;
+  Drive& operator=(const Drive&) = delete;
+
+  void Add(std::unique_ptr<Robot> robot) {
+    // Told once, when something came or there is room again: a robot takes all there is.
+    epoll_event event{.events = EPOLLIN | EPOLLOUT | EPOLLRDHUP | EPOLLET, .data = {}};
+    event.data.ptr = robot.get();
+    epoll_ctl(epoll_, EPOLL_CTL_ADD, robot->socket(), &event);
+    robots_.push_back(std::move(robot));
+  }
+
+  // Sends at the robots' times, which are spread evenly over a period, until `seconds` are over.
+  LoadResult Run(const std::stop_token& stop) {
+    using Seconds = std::chrono::duration<double>;
+    const LoadClock::time_point start = LoadClock::now() + std::chrono::seconds(1);
+    const auto all = static_cast<std::int64_t>(options_.seconds * options_.rate) *
+                     static_cast<std::int64_t>(robots_.size());
+    const double between = 1 / options_.rate / static_cast<double>(robots_.size());
+    const auto time_of = [&](std::int64_t i) {
+      return start + std::chrono::duration_cast<LoadClock::duration>(
+                         Seconds(between * static_cast<double>(i)));
+    };
+    for (std::int64_t next = 0; next < all && !stop.stop_requested(); Tick()) {
+      for (; next < all && time_of(next) <= LoadClock::now(); ++next) {
+        robots_[static_cast<std::size_t>(next) % robots_.size()]->Due(time_of(next));
+      }
+    }
+    for (const auto& robot : robots_) robot->HalfClose();
+    const auto ended = [](const auto& robot) { return robot->done(); };
+    const LoadClock::time_point deadline = LoadClock::now() + kGrace;
+    while (!std::all_of(robots_.begin(), robots_.end(), ended) && LoadClock::now() < deadline) {
+      Tick();
+    }
+    LoadResult result = Sum();
+    result.seconds = Seconds(LoadClock::now() - start).count();
+    return result;
+  }
+
+ private:
+  // Looks twice a millisecond, and does not wake up for each answer: the machine is the server's.
+  void Tick() {
+    std::this_thread::sleep_for(std::chrono::microseconds(500));
+    std::array<epoll_event, 256> events{};
+    int count = 0;
+    do {
+      count = epoll_wait(epoll_, events.data(), static_cast<int>(events.size()), 0);
+      const LoadClock::time_point now = LoadClock::now();
+      for (int i = 0; i < count; ++i) {
+        static_cast<Robot*>(events[static_cast<std::size_t>(i)].data.ptr)->Advance(now);
+      }
+    } while (count == static_cast<int>(events.size()));
+  }
+
+  LoadResult Sum() const {
+    LoadResult result;
+    for (const auto& robot : robots_) {
+      const LoadCounts counts = robot->End();
+      result.counts.sent += counts.sent;
+      result.counts.answered += counts.answered;
+      result.counts.late += counts.late;
+      result.counts.latency.Add(counts.latency);
+      if (!counts.status.ok()) {
+        ++result.failed_robots;
+        result.counts.status = counts.status;
+      }
+    }
+    return result;
+  }
+
+  const LoadOptions& options_;
+  const int epoll_;
+  std::vector<std::unique_ptr<Robot>> robots_;
 };
 
-template <typename Service>
-absl::StatusOr<Robots<typename Service::Stub>> Connect(const ConnectionOptions& options,
-                                                       int robots) {
-  Robots<typename Service::Stub> all;
-  for (int i = 0; i < robots; ++i) {
-    HOMING_ASSIGN_OR_RETURN(Connection connection, Connection::Open(options));
-    all.stubs.push_back(Service::NewStub(connection.channel()));
-    all.connections.push_back(std::move(connection));
+template <typename Request>
+std::vector<std::string> RequestsOf(const LoadScene& scene) {
+  std::vector<std::string> requests;
+  for (const v1::Observation& observation : scene.observations()) {
+    Request request;
+    *request.mutable_observation() = observation;
+    requests.push_back(request.SerializeAsString());
   }
-  return all;
+  return requests;
 }
 
-// Sends at the robots' times, which are spread evenly over a period, until `seconds` are over.
-template <typename Robot>
-LoadResult Drive(const std::vector<std::unique_ptr<Robot>>& robots, const LoadOptions& options,
-                 const std::stop_token& stop) {
-  using Seconds = std::chrono::duration<double>;
-  const LoadClock::time_point start = LoadClock::now() + std::chrono::seconds(1);
-  const auto rounds = static_cast<std::int64_t>(options.seconds * options.rate);
-  const double between = 1 / options.rate / static_cast<double>(robots.size());
-  std::int64_t next = 0;
-  for (std::int64_t round = 0; round < rounds && !stop.stop_requested(); ++round) {
-    for (const std::unique_ptr<Robot>& robot : robots) {
-      const LoadClock::time_point time =
-          start + std::chrono::duration_cast<LoadClock::duration>(
-                      Seconds(between * static_cast<double>(next++)));
-      if (time > LoadClock::now() + std::chrono::microseconds(200)) {
-        std::this_thread::sleep_until(time);
-      }
-      robot->Due(time);
-    }
+// All robots call `method`, each with the config and the scene that are its own.
+template <typename Request, typename Response, typename Configure>
+absl::StatusOr<LoadResult> DriveAll(const ConnectionOptions& connection, const LoadOptions& options,
+                                    const std::string& method, const Configure& configure,
+                                    const std::vector<LoadScene>& scenes,
+                                    const std::stop_token& stop) {
+  HOMING_ASSIGN_OR_RETURN(const Http2Endpoint endpoint, Http2Endpoint::Make(connection));
+  std::vector<std::vector<std::string>> requests;
+  for (const LoadScene& scene : scenes) requests.push_back(RequestsOf<Request>(scene));
+  Drive<LoadRobot<Request, Response>> drive(options);
+  for (int i = 0; i < options.robots; ++i) {
+    const auto& sent = requests[static_cast<std::size_t>(i) % requests.size()];
+    HOMING_ASSIGN_OR_RETURN(
+        auto robot, (LoadRobot<Request, Response>::Start(endpoint, method, configure(i), &sent)));
+    drive.Add(std::move(robot));
   }
-  for (const std::unique_ptr<Robot>& robot : robots) robot->HalfClose();
-  LoadResult result;
-  for (const std::unique_ptr<Robot>& robot : robots) {
-    const LoadCounts counts = robot->Await(LoadClock::now() + kGrace);
-    result.counts.sent += counts.sent;
-    result.counts.answered += counts.answered;
-    result.counts.late += counts.late;
-    result.counts.latency.Add(counts.latency);
-    if (!counts.status.ok()) {
-      ++result.failed_robots;
-      result.counts.status = counts.status;
-    }
-  }
-  result.seconds = Seconds(LoadClock::now() - start).count();
-  return result;
+  return drive.Run(stop);
 }
 
 absl::StatusOr<LoadResult> Record(const ConnectionOptions& connection, const LoadOptions& options,
                                   const std::vector<LoadScene>& scenes,
                                   const std::stop_token& stop) {
-  HOMING_ASSIGN_OR_RETURN(const auto all, Connect<v1::JourneyService>(connection, options.robots));
-  std::vector<std::unique_ptr<RecordRobot>> robots;
-  for (int i = 0; i < options.robots; ++i) {
+  const auto configure = [&](int robot) {
     v1::RecordJourneyRequest config;
-    config.mutable_config()->set_journey(JourneyOf(options, i));
+    config.mutable_config()->set_journey(JourneyOf(options, robot));
     config.mutable_config()->set_writer_id(kWriter);
-    const LoadScene* scene = &scenes[static_cast<std::size_t>(i) % scenes.size()];
-    robots.push_back(std::make_unique<RecordRobot>(config, [scene](auto sequence, auto* request) {
-      scene->Fill(sequence, request->mutable_observation());
-    }));
-    robots.back()->Start([&](grpc::ClientContext* context, RecordRobot* robot) {
-      all.stubs[static_cast<std::size_t>(i)]->async()->RecordJourney(context, robot);
-    });
-  }
-  return Drive(robots, options, stop);
+    return config;
+  };
+  return DriveAll<v1::RecordJourneyRequest, v1::RecordJourneyResponse>(
+      connection, options, "/homing.v1.JourneyService/RecordJourney", configure, scenes, stop);
 }
 
 absl::StatusOr<LoadResult> Localize(const ConnectionOptions& connection, const LoadOptions& options,
                                     const std::vector<LoadScene>& scenes,
                                     const std::stop_token& stop) {
-  HOMING_ASSIGN_OR_RETURN(const auto all, Connect<v1::HomingService>(connection, options.robots));
-  std::vector<std::unique_ptr<LocalizeRobot>> robots;
-  for (int i = 0; i < options.robots; ++i) {
+  const auto configure = [&](int robot) {
     v1::LocalizeRequest config;
-    config.mutable_config()->set_journey(JourneyOf(options, i % options.journeys));
+    config.mutable_config()->set_journey(JourneyOf(options, robot % options.journeys));
     config.mutable_config()->set_travel(v1::TRAVEL_SAME);
-    const LoadScene* scene = &scenes[static_cast<std::size_t>(i % options.journeys)];
-    robots.push_back(std::make_unique<LocalizeRobot>(config, [scene](auto sequence, auto* request) {
-      scene->Fill(sequence, request->mutable_observation());
-    }));
-    robots.back()->Start([&](grpc::ClientContext* context, LocalizeRobot* robot) {
-      all.stubs[static_cast<std::size_t>(i)]->async()->Localize(context, robot);
-    });
-  }
-  return Drive(robots, options, stop);
+    return config;
+  };
+  return DriveAll<v1::LocalizeRequest, v1::LocalizeResponse>(
+      connection, options, "/homing.v1.HomingService/Localize", configure, scenes, stop);
 }
 
 }  // namespace

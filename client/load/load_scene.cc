@@ -75,9 +75,4 @@ absl::StatusOr<LoadScene> LoadScene::WithFrames(int count) {
   return scene;
 }
 
-void LoadScene::Fill(std::int64_t sequence, v1::Observation* observation) const {
-  *observation = observations_[static_cast<std::size_t>(sequence) % observations_.size()];
-  observation->set_sequence(sequence);
-}
-
 }  // namespace homing::client

@@ -2,7 +2,6 @@
 #ifndef CLIENT_LOAD_LOAD_SCENE_H_
 #define CLIENT_LOAD_LOAD_SCENE_H_
 
-#include <cstdint>
 #include <vector>
 
 #include "absl/status/statusor.h"
@@ -19,8 +18,8 @@ class LoadScene {
   // Frames of the simulated street, left camera.
   static absl::StatusOr<LoadScene> WithFrames(int count);
 
-  // As observation `sequence`, which is one past the end begins anew.
-  void Fill(std::int64_t sequence, v1::Observation* observation) const;
+  // Without sequences.
+  const std::vector<v1::Observation>& observations() const { return observations_; }
 
  private:
   std::vector<v1::Observation> observations_;

@@ -14,8 +14,8 @@ constexpr int kSteps = 60;
 constexpr int kVectors = 200;
 
 Observation ObservationAt(const LoadScene& scene, std::int64_t sequence) {
-  v1::Observation message;
-  scene.Fill(sequence, &message);
+  v1::Observation message = scene.observations().at(static_cast<std::size_t>(sequence));
+  message.set_sequence(sequence);
   const auto observation = wire::FromProto(message, {});
   EXPECT_THAT(observation, IsOk());
   return *observation;
@@ -23,21 +23,9 @@ Observation ObservationAt(const LoadScene& scene, std::int64_t sequence) {
 
 TEST(LoadSceneTest, HasTheNumberOfVectorsThatIsAskedFor) {
   for (const int vectors : {0, 10, kVectors, 500}) {
-    v1::Observation message;
-    LoadScene::WithFlow(0, 1, 2, vectors).Fill(1, &message);
-    EXPECT_EQ(message.left().flow_vectors().start_x_size(), vectors);
+    const LoadScene scene = LoadScene::WithFlow(0, 1, 2, vectors);
+    EXPECT_EQ(scene.observations().at(1).left().flow_vectors().start_x_size(), vectors);
   }
-}
-
-TEST(LoadSceneTest, BeginsAnewAfterItsEnd) {
-  const LoadScene scene = LoadScene::WithFlow(0, 1, kSteps, kVectors);
-  v1::Observation first;
-  v1::Observation again;
-  scene.Fill(3, &first);
-  scene.Fill(kSteps + 3, &again);
-  EXPECT_EQ(again.sequence(), kSteps + 3);
-  again.set_sequence(3);
-  EXPECT_EQ(first.SerializeAsString(), again.SerializeAsString());
 }
 
 TEST(LoadSceneTest, AnotherDriveAlongARouteFindsItsPlaceOnTheFirst) {
