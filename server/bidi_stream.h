@@ -78,8 +78,8 @@ class BidiStream : public grpc::ServerBidiReactor<Request, Response>,
     WorkerPool::Task task;
     {
       const std::lock_guard lock(mutex_);
-      reading_ = false;
       if (!ok) {
+        reading_ = false;
         half_closed_ = true;
         FinishIfOver();
         return;
@@ -92,12 +92,15 @@ class BidiStream : public grpc::ServerBidiReactor<Request, Response>,
       };
       if (!quick_ || bytes > kHereBytes) {
         strand_->Post(std::move(task));
+        reading_ = false;
         ReadNext();
         return;
       }
     }
+    // Nothing is read meanwhile: what came next could overtake it.
     strand_->RunOrPost(std::move(task));
     const std::lock_guard lock(mutex_);
+    reading_ = false;
     ReadNext();
   }
 

@@ -5,6 +5,7 @@
 #include <deque>
 #include <mutex>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "absl/strings/str_cat.h"
@@ -12,6 +13,12 @@
 namespace homing::storage {
 
 struct CommitQueue::State {
+  struct Committed {
+    std::vector<JourneyAppend> appends;
+    std::vector<Done> callbacks;
+    std::vector<absl::Status> statuses;
+  };
+
   JourneyStore* const store;
   const CommitQueueOptions options;
 
@@ -23,11 +30,17 @@ struct CommitQueue::State {
   bool stopping = false;
   // Appends in the last transaction.
   std::size_t last_batch = 0;
+  // Whose transactions have ended.
+  std::deque<Committed> committed;
+  std::condition_variable ended;
+  bool all_committed = false;
 
-  std::thread thread;
+  std::thread committing;
+  std::thread telling;
 
   State(JourneyStore* s, const CommitQueueOptions& o) : store(s), options(o) {}
-  void Run();
+  void Commit();
+  void Tell();
   bool TakeBatch(std::vector<JourneyAppend>& batch, std::vector<Done>& done);
 };
 
@@ -49,22 +62,44 @@ bool CommitQueue::State::TakeBatch(std::vector<JourneyAppend>& batch, std::vecto
   return size > 0;
 }
 
-void CommitQueue::State::Run() {
-  std::vector<JourneyAppend> batch;
-  std::vector<Done> done;
-  while (TakeBatch(batch, done)) {
-    const std::vector<absl::Status> statuses = store->AppendSteps(batch);
-    for (std::size_t i = 0; i < done.size(); ++i) {
-      done[i](std::move(batch[i]), statuses[i]);
-      // What the callback holds must not live until the next batch.
-      done[i] = nullptr;
+void CommitQueue::State::Commit() {
+  Committed batch;
+  while (TakeBatch(batch.appends, batch.callbacks)) {
+    batch.statuses = store->AppendSteps(batch.appends);
+    {
+      const std::lock_guard lock(mutex);
+      committed.push_back(std::exchange(batch, {}));
     }
+    ended.notify_one();
+  }
+  {
+    const std::lock_guard lock(mutex);
+    all_committed = true;
+  }
+  ended.notify_one();
+}
+
+void CommitQueue::State::Tell() {
+  std::unique_lock lock(mutex);
+  while (true) {
+    ended.wait(lock, [this] { return all_committed || !committed.empty(); });
+    if (committed.empty()) return;
+    Committed batch = std::move(committed.front());
+    committed.pop_front();
+    lock.unlock();
+    for (std::size_t i = 0; i < batch.callbacks.size(); ++i) {
+      batch.callbacks[i](std::move(batch.appends[i]), batch.statuses[i]);
+      // What the callback holds must not outlive its turn.
+      batch.callbacks[i] = nullptr;
+    }
+    lock.lock();
   }
 }
 
 CommitQueue::CommitQueue(JourneyStore* store, const CommitQueueOptions& options)
     : state_(std::make_unique<State>(store, options)) {
-  state_->thread = std::thread([state = state_.get()] { state->Run(); });
+  state_->committing = std::thread([state = state_.get()] { state->Commit(); });
+  state_->telling = std::thread([state = state_.get()] { state->Tell(); });
 }
 
 CommitQueue::~CommitQueue() {
@@ -73,7 +108,8 @@ CommitQueue::~CommitQueue() {
     state_->stopping = true;
   }
   state_->changed.notify_one();
-  state_->thread.join();
+  state_->committing.join();
+  state_->telling.join();
 }
 
 std::size_t CommitQueue::waiting() const {

@@ -24,15 +24,17 @@ struct CommitQueueOptions {
   std::chrono::milliseconds gather_time{2};
 };
 
-// One thread commits all that waits, in order of submission, then calls back. Thread-safe.
+// One thread commits all that waits, in order of submission; another calls back, so that the next
+// transaction goes on meanwhile. Thread-safe.
 class CommitQueue {
  public:
-  // Called on the commit thread after the transaction ended, with what was to be appended.
+  // Called after the transaction ended, with what was to be appended, one at a time and in order of
+  // submission.
   using Done = std::function<void(JourneyAppend, absl::Status)>;
 
   // `store` must outlive the queue.
   explicit CommitQueue(JourneyStore* store, const CommitQueueOptions& options = {});
-  // Commits all that waits, then stops.
+  // Commits all that waits, calls back, then stops.
   ~CommitQueue();
 
   // RESOURCE_EXHAUSTED when full (`done` is then not called, and `append` is lost).

@@ -29,7 +29,7 @@ struct RecordingAnswer {
   std::optional<JourneyStep> step;
 };
 
-// Who is told; calls come one at a time, from workers and from the commit thread, and must not call
+// Who is told; calls come one at a time, from those who record and after commits, and must not call
 // back into the session. After `end` nothing comes.
 struct RecordingListener {
   std::function<void(RecordingAnswer)> answer;

@@ -62,6 +62,18 @@ TEST_F(LoadRunTest, RobotsLocalise) {
   ExpectAllAnswered(Run());
 }
 
+// Far faster than they are answered, so that many wait on every side.
+TEST_F(LoadRunTest, ObservationsStayInOrderWhenTheyComeFast) {
+  load_.localize = true;
+  load_.robots = 8;
+  load_.rate = 1000;
+  load_.seconds = 2;
+  const auto result = Run();
+  ASSERT_THAT(result, IsOk());
+  EXPECT_THAT(result->counts.status, IsOk());
+  EXPECT_EQ(result->counts.answered, 16'000);
+}
+
 // More than one frame of HTTP/2, and more than its first window.
 TEST_F(LoadRunTest, LargeMessagesGoThrough) {
   load_.vectors = 20'000;
