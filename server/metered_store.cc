@@ -52,6 +52,9 @@ class MeteredStore final : public storage::JourneyStore {
   absl::StatusOr<JourneyMap> LoadMap(const std::string& name) override {
     return store_->LoadMap(name);
   }
+  absl::StatusOr<JourneyTail> LoadTail(const std::string& name) override {
+    return store_->LoadTail(name);
+  }
   absl::Status ImportJourney(const JourneyRecord& record, const JourneyMap& map) override {
     return store_->ImportJourney(record, map);
   }

@@ -89,6 +89,8 @@ class JourneyStore {
   virtual std::vector<absl::Status> AppendSteps(const std::vector<JourneyAppend>& appends) = 0;
   // The map as stored. NOT_FOUND, DATA_LOSS.
   virtual absl::StatusOr<JourneyMap> LoadMap(const std::string& name) = 0;
+  // What recording goes on from; takes as long however long the journey is. NOT_FOUND, DATA_LOSS.
+  virtual absl::StatusOr<JourneyTail> LoadTail(const std::string& name) = 0;
   // A whole journey at once, finished. ALREADY_EXISTS, INVALID_ARGUMENT.
   virtual absl::Status ImportJourney(const JourneyRecord& record, const JourneyMap& map) = 0;
 

@@ -18,6 +18,10 @@ constexpr char kSelectLandmarks[] =
 constexpr char kSelectFingerprints[] =
     "SELECT fingerprint_id, landmark, x, y, count FROM fingerprints"
     " WHERE fingerprint_id >= ? AND fingerprint_id < ? ORDER BY fingerprint_id";
+constexpr char kSelectTail[] =
+    "SELECT f.fingerprint_id, f.landmark, f.x, f.y, f.count, coalesce(l.side, '')"
+    " FROM fingerprints f LEFT JOIN landmarks l ON l.journey_id = ? AND l.landmark = f.landmark"
+    " WHERE f.fingerprint_id >= ? AND f.fingerprint_id < ? ORDER BY f.fingerprint_id";
 constexpr char kSelectProfiles[] =
     "SELECT profile_id, cells FROM profiles WHERE profile_id >= ? AND profile_id < ?"
     " ORDER BY profile_id";
@@ -27,6 +31,28 @@ constexpr char kInsertFingerprint[] =
 absl::Status Contradiction(const JourneyRow& journey, const std::string& what) {
   return absl::DataLossError(
       absl::StrCat("store: journey '", journey.record.name, "' is damaged: ", what));
+}
+
+absl::Status CheckStepCount(const JourneyRow& journey) {
+  const std::int64_t step_count = journey.record.step_count;
+  return step_count < 0 || step_count > kMostSteps
+             ? Contradiction(journey, absl::StrCat("step_count is ", step_count))
+             : absl::OkStatus();
+}
+
+// Of a row of kSelectFingerprints or kSelectTail.
+absl::StatusOr<std::int64_t> StepOfRow(Query& query, const JourneyRow& journey) {
+  const std::int64_t step = StepOfFingerprint(query.Integer(0));
+  if (step >= journey.record.step_count) {
+    return Contradiction(
+        journey, absl::StrCat("a fingerprint at step ", step, " of ", journey.record.step_count));
+  }
+  return step;
+}
+
+Fingerprint FingerprintOfRow(Query& query) {
+  return {static_cast<float>(query.Real(2)), static_cast<float>(query.Real(3)),
+          static_cast<std::int32_t>(query.Integer(4)), static_cast<std::int32_t>(query.Integer(1))};
 }
 
 absl::StatusOr<std::vector<Landmark>> ReadLandmarks(Connection& connection,
@@ -60,9 +86,7 @@ absl::StatusOr<RecordedFingerprint> ReadFingerprint(Query& query, const JourneyR
   RecordedFingerprint recorded;
   recorded.side = known.side;
   recorded.spread = known.spread;
-  recorded.fingerprint = {static_cast<float>(query.Real(2)), static_cast<float>(query.Real(3)),
-                          static_cast<std::int32_t>(query.Integer(4)),
-                          static_cast<std::int32_t>(landmark)};
+  recorded.fingerprint = FingerprintOfRow(query);
   return recorded;
 }
 
@@ -79,11 +103,7 @@ absl::Status ReadSteps(Connection& connection, const JourneyRow& journey,
   Query query = connection.Prepare(kSelectFingerprints, FingerprintId(journey.id, 0, 0),
                                    FingerprintId(journey.id + 1, 0, 0));
   while (query.Next()) {
-    const std::int64_t number = StepOfFingerprint(query.Integer(0));
-    if (number >= journey.record.step_count) {
-      return Contradiction(journey, absl::StrCat("a fingerprint at step ", number, " of ",
-                                                 journey.record.step_count));
-    }
+    HOMING_ASSIGN_OR_RETURN(const std::int64_t number, StepOfRow(query, journey));
     if (number != step.step) HOMING_RETURN_IF_ERROR(AppendTo(map, step, journey));
     step.step = number;
     HOMING_ASSIGN_OR_RETURN(RecordedFingerprint recorded,
@@ -112,9 +132,7 @@ absl::Status ReadProfiles(Connection& connection, const JourneyRow& journey, Jou
 
 absl::StatusOr<JourneyMap> ReadMap(Connection& connection, const JourneyRow& journey) {
   const JourneyRecord& record = journey.record;
-  if (record.step_count < 0 || record.step_count > kMostSteps) {
-    return Contradiction(journey, absl::StrCat("step_count is ", record.step_count));
-  }
+  HOMING_RETURN_IF_ERROR(CheckStepCount(journey));
   HOMING_ASSIGN_OR_RETURN(std::vector<Landmark> landmarks, ReadLandmarks(connection, journey));
   JourneyMap map(record.settings);
   HOMING_RETURN_IF_ERROR(ReadSteps(connection, journey, landmarks, map));
@@ -129,6 +147,27 @@ absl::StatusOr<JourneyMap> ReadMap(Connection& connection, const JourneyRow& jou
                                                " fingerprints, not ", record.fingerprint_count));
   }
   return map;
+}
+
+absl::StatusOr<JourneyTail> ReadTail(Connection& connection, const JourneyRow& journey) {
+  const JourneyRecord& record = journey.record;
+  HOMING_RETURN_IF_ERROR(CheckStepCount(journey));
+  JourneyTail tail{record.step_count, record.landmark_count, {}};
+  Query query = connection.Prepare(
+      kSelectTail, journey.id,
+      FingerprintId(journey.id, FirstTailStep(record.settings, record.step_count), 0),
+      FingerprintId(journey.id + 1, 0, 0));
+  while (query.Next()) {
+    HOMING_ASSIGN_OR_RETURN(const std::int64_t number, StepOfRow(query, journey));
+    if (tail.steps.empty() || tail.steps.back().step != number) {
+      tail.steps.emplace_back().step = number;
+    }
+    RecordedFingerprint recorded;
+    HOMING_ASSIGN_OR_RETURN(recorded.side, SideOfWord(query.Text(5)));
+    recorded.fingerprint = FingerprintOfRow(query);
+    tail.steps.back().fingerprints.push_back(recorded);
+  }
+  return tail;
 }
 
 void InsertFingerprint(Connection& connection, std::int64_t id, const Fingerprint& fingerprint) {

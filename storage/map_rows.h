@@ -12,6 +12,8 @@ namespace homing::storage {
 
 // DATA_LOSS: the rows contradict each other.
 absl::StatusOr<JourneyMap> ReadMap(Connection& connection, const JourneyRow& journey);
+// As JourneyStore::LoadTail. DATA_LOSS.
+absl::StatusOr<JourneyTail> ReadTail(Connection& connection, const JourneyRow& journey);
 // One row of `fingerprints`; `id` by FingerprintId.
 void InsertFingerprint(Connection& connection, std::int64_t id, const Fingerprint& fingerprint);
 // All rows of a journey that has none yet.

@@ -117,6 +117,13 @@ absl::StatusOr<JourneyMap> SqliteJourneyStore::LoadMap(const std::string& name) 
   });
 }
 
+absl::StatusOr<JourneyTail> SqliteJourneyStore::LoadTail(const std::string& name) {
+  return ReadOne<JourneyTail>([&](Connection& connection) -> absl::StatusOr<JourneyTail> {
+    HOMING_ASSIGN_OR_RETURN(JourneyRow row, FindJourney(connection, name));
+    return ReadTail(connection, row);
+  });
+}
+
 absl::Status SqliteJourneyStore::ImportJourney(const JourneyRecord& record, const JourneyMap& map) {
   HOMING_RETURN_IF_ERROR(Validate(record.settings));
   JourneyRecord finished = record;

@@ -36,6 +36,7 @@ class SqliteJourneyStore final : public JourneyStore {
   absl::Status SetWriter(const std::string& name, const std::string& writer_id) override;
   std::vector<absl::Status> AppendSteps(const std::vector<JourneyAppend>& appends) override;
   absl::StatusOr<JourneyMap> LoadMap(const std::string& name) override;
+  absl::StatusOr<JourneyTail> LoadTail(const std::string& name) override;
   absl::Status ImportJourney(const JourneyRecord& record, const JourneyMap& map) override;
   absl::Status WriteHealth() override;
   absl::Status ProbeWrite() override;

@@ -45,21 +45,22 @@ std::optional<std::int64_t> StepOf(InputKind kind, std::int64_t sequence) {
   return step < 0 ? std::nullopt : std::optional(step);
 }
 
+std::int64_t FirstTailStep(const JourneySettings& settings, std::int64_t step_count) {
+  return std::max<std::int64_t>(0, step_count - settings.landmark.max_track_gap_steps - 1);
+}
+
 JourneyRecorder::JourneyRecorder(const JourneySettings& settings, const DecodeLimits& limits)
     : settings_(settings), flow_(settings.flow, limits), tracker_(settings.landmark) {}
 
-void JourneyRecorder::Resume(const JourneyMap& map) {
-  settings_ = map.settings();
-  next_step_ = map.step_count();
+void JourneyRecorder::Resume(const JourneyTail& tail) {
+  next_step_ = tail.step_count;
   tracker_ = LandmarkTracker(settings_.landmark);
-  const std::int64_t look_back = settings_.landmark.max_track_gap_steps + 1;
-  for (std::int64_t step = std::max<std::int64_t>(0, next_step_ - look_back); step < next_step_;
-       ++step) {
-    for (const Fingerprint& fingerprint : map.fingerprints(step)) {
-      tracker_.Restore(step, map.side_of(fingerprint), fingerprint);
+  for (const JourneyStep& step : tail.steps) {
+    for (const RecordedFingerprint& recorded : step.fingerprints) {
+      tracker_.Restore(step.step, recorded.side, recorded.fingerprint);
     }
   }
-  tracker_.set_landmark_count(static_cast<int>(map.landmarks().size()));
+  tracker_.set_landmark_count(tail.landmark_count);
 }
 
 absl::Status JourneyRecorder::CheckKind(InputKind kind) const {

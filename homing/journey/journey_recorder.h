@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 #include "absl/status/statusor.h"
 #include "homing/flow/observation.h"
@@ -26,16 +27,28 @@ std::int64_t LookBack(InputKind kind);
 // sequence for flow vectors.
 std::optional<std::int64_t> StepOf(InputKind kind, std::int64_t sequence);
 
+// The end of a journey: what its recording goes on from.
+struct JourneyTail {
+  std::int64_t step_count = 0;
+  std::int32_t landmark_count = 0;
+  // From FirstTailStep on, in order; those without fingerprints may be left out. Only their numbers
+  // and fingerprints count.
+  std::vector<JourneyStep> steps;
+};
+
+// First step that tracking still looks back on after `step_count` steps.
+std::int64_t FirstTailStep(const JourneySettings& settings, std::int64_t step_count);
+
 // One stream of one journey. Not thread-safe.
 class JourneyRecorder {
  public:
   // REQUIRES: Validate(settings).ok().
   explicit JourneyRecorder(const JourneySettings& settings, const DecodeLimits& limits = {});
 
-  // Takes up a journey that has been recorded before.
-  void Resume(const JourneyMap& map);
+  // Takes up a journey that has been recorded before, with the settings given above.
+  void Resume(const JourneyTail& tail);
 
-  // Nothing for the first frame and for steps below map size at Resume (they rebuild state only).
+  // Nothing for the first frame and for steps below step_count at Resume (they rebuild state only).
   // INVALID_ARGUMENT: as InputKindOf and ObservationFlow, a kind unlike the first;
   // FAILED_PRECONDITION: image size unlike the journey's camera. After an error the state is as
   // before the call.

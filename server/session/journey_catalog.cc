@@ -56,6 +56,10 @@ std::shared_ptr<LiveJourney> JourneyCatalog::Use(Cached* cached) {
 }
 
 void JourneyCatalog::LetGoOfUnused() {
+  if (options_.cache_bytes <= 0) {
+    return;
+  }
+  const std::lock_guard lock(mutex_);
   std::int64_t bytes = 0;
   std::vector<std::pair<std::uint64_t, std::map<std::string, Cached>::iterator>> unused;
   for (auto cached = live_.begin(); cached != live_.end(); ++cached) {
@@ -85,22 +89,24 @@ absl::StatusOr<std::shared_ptr<LiveJourney>> JourneyCatalog::OpenLocked(const st
     return journey;
   }
   HOMING_ASSIGN_OR_RETURN(JourneyRecord record, store_->GetJourney(name));
-  HOMING_ASSIGN_OR_RETURN(JourneyMap map, store_->LoadMap(name));
-  auto journey = std::make_shared<LiveJourney>(std::move(record), std::move(map), index_);
+  auto journey = std::make_shared<LiveJourney>(std::move(record), store_, index_);
   const std::lock_guard lock(mutex_);
   live_[name] = {journey, ++uses_};
-  if (options_.cache_bytes > 0) {
-    LetGoOfUnused();
-  }
   return journey;
 }
 
 absl::StatusOr<std::shared_ptr<LiveJourney>> JourneyCatalog::Open(const std::string& name) {
-  if (auto journey = Find(name)) {
-    return journey;
+  auto journey = Find(name);
+  if (!journey) {
+    const std::lock_guard lock(StripeOf(name));
+    HOMING_ASSIGN_OR_RETURN(journey, OpenLocked(name));
   }
-  const std::lock_guard lock(StripeOf(name));
-  return OpenLocked(name);
+  if (!journey->has_map()) {
+    // Without the stripe: a long map keeps no writer waiting.
+    HOMING_RETURN_IF_ERROR(journey->LoadMap());
+    LetGoOfUnused();
+  }
+  return journey;
 }
 
 absl::StatusOr<JourneyRecord> JourneyCatalog::GetSameOrExists(const JourneyRecord& record) {
@@ -256,7 +262,11 @@ absl::StatusOr<WriterClaim> JourneyCatalog::Claim(const std::string& name,
     return absl::FailedPreconditionError("the server is read-only: it records nothing");
   }
   const std::lock_guard lock(StripeOf(name));
-  HOMING_ASSIGN_OR_RETURN(auto journey, OpenLocked(name));
+  auto journey = Find(name);
+  if (!journey) {
+    HOMING_ASSIGN_OR_RETURN(journey, OpenLocked(name));
+    LetGoOfUnused();
+  }
   {
     const std::lock_guard table_lock(mutex_);
     now_ = std::max(now_, now);

@@ -66,13 +66,13 @@ class JourneyCatalog {
   absl::StatusOr<storage::JourneyRecord> Import(const storage::JourneyRecord& record,
                                                 const JourneyMap& map);
 
-  // Loads the map on first use. NOT_FOUND.
+  // With its map, which is loaded on first use. NOT_FOUND.
   absl::StatusOr<std::shared_ptr<LiveJourney>> Open(const std::string& name);
-  // All that `pattern` covers and, if it is one, `filter` lets through, in order of name.
-  // NOT_FOUND: none.
+  // All that `pattern` covers and, if it is one, `filter` lets through, in order of name, with
+  // their maps. NOT_FOUND: none.
   absl::StatusOr<LiveJourneys> Resolve(const JourneyName& pattern,
                                        const JourneyFilter& filter = nullptr);
-  // As LiveJourney::Claim; the writer is kept on disk. NOT_FOUND.
+  // As LiveJourney::Claim; the writer is kept on disk. Loads no map. NOT_FOUND.
   absl::StatusOr<WriterClaim> Claim(const std::string& name, const std::string& writer_id,
                                     TimePoint now, WriterLease::Evict evict);
 
@@ -80,6 +80,7 @@ class JourneyCatalog {
   // Serialises what makes, loads, finishes and deletes one journey.
   std::mutex& StripeOf(const std::string& name);
   std::shared_ptr<LiveJourney> Find(const std::string& name);
+  // Without its map. REQUIRES: the stripe.
   absl::StatusOr<std::shared_ptr<LiveJourney>> OpenLocked(const std::string& name);
   absl::StatusOr<storage::JourneyRecord> GetSameOrExists(const storage::JourneyRecord& record);
 
@@ -91,8 +92,9 @@ class JourneyCatalog {
     // Grows with each use.
     std::uint64_t last_used = 0;
   };
-  // REQUIRES for both: mutex_.
+  // REQUIRES: mutex_.
   std::shared_ptr<LiveJourney> Use(Cached* cached);
+  // As cache_bytes says.
   void LetGoOfUnused();
 
   storage::JourneyStore* const store_;

@@ -28,12 +28,9 @@ void CountStep(const JourneyStep& step, storage::JourneyRecord* record) {
 
 }  // namespace
 
-LiveJourney::LiveJourney(storage::JourneyRecord record, JourneyMap map, FleetIndex* index)
-    : name_(record.name), index_(index), map_(std::move(map)), record_(std::move(record)) {
-  record_.step_count = map_.step_count();
-  record_.landmark_count = static_cast<std::int32_t>(map_.landmarks().size());
-  record_.fingerprint_count = static_cast<std::int64_t>(map_.all_fingerprints().size());
-}
+LiveJourney::LiveJourney(storage::JourneyRecord record, storage::JourneyStore* store,
+                         FleetIndex* index)
+    : name_(record.name), store_(store), index_(index), record_(std::move(record)) {}
 
 storage::JourneyRecord LiveJourney::record() const {
   const std::lock_guard lock(mutex_);
@@ -48,6 +45,7 @@ bool LiveJourney::deleted() const {
 std::int64_t LiveJourney::MemoryBytes() const {
   constexpr std::int64_t kBytesAJourney = 2048;
   const std::lock_guard lock(mutex_);
+  if (map_state_ == MapState::kNone) return kBytesAJourney;
   const auto steps = static_cast<std::int64_t>(sizeof(std::int64_t) + 2 * sizeof(FlowProfile));
   return kBytesAJourney + record_.step_count * steps +
          record_.landmark_count * static_cast<std::int64_t>(sizeof(Landmark)) +
@@ -59,10 +57,13 @@ bool LiveJourney::IsIdle(TimePoint now) const {
   return appends_under_way_ == 0 && lease_.CheckFree("", now).ok();
 }
 
+absl::Status LiveJourney::CheckPresent() const {
+  return deleted_ ? absl::NotFoundError(absl::StrCat("journey is \"", name_, "\"; it was deleted"))
+                  : absl::OkStatus();
+}
+
 absl::Status LiveJourney::CheckWritable() const {
-  if (deleted_) {
-    return absl::NotFoundError(absl::StrCat("journey is \"", name_, "\"; it was deleted"));
-  }
+  HOMING_RETURN_IF_ERROR(CheckPresent());
   if (record_.state == storage::JourneyState::kFinished) {
     return WithReason(absl::FailedPreconditionError(absl::StrCat(
                           "journey is \"", name_, "\"; it is finished and takes no observations")),
@@ -136,7 +137,7 @@ void LiveJourney::EndAppend(const storage::JourneyAppend& append, const absl::St
       }
       if (append.step) {
         CountStep(*append.step, &record_);
-        unabsorbed_.push_back(*append.step);
+        if (map_state_ != MapState::kNone) unabsorbed_.push_back(*append.step);
         if (index_ != nullptr) indexed = record_.settings;
       }
     }
@@ -187,15 +188,45 @@ void LiveJourney::AbsorbSteps() {
   std::vector<JourneyStep> steps;
   {
     const std::lock_guard lock(mutex_);
+    if (map_state_ != MapState::kLoaded) return;
     steps.swap(unabsorbed_);
     if (std::exchange(settings_changed_, false)) {
       map_.mutable_settings() = record_.settings;
     }
   }
   for (const JourneyStep& step : steps) {
+    // What was loaded may hold it already.
+    if (step.step < map_.step_count()) continue;
     // The disk took the same step under the same rules: it cannot fail here.
     map_.Append(step).IgnoreError();
   }
+}
+
+absl::Status LiveJourney::LoadMap() {
+  const std::lock_guard load_lock(load_mutex_);
+  {
+    const std::lock_guard lock(mutex_);
+    if (map_state_ == MapState::kLoaded) return absl::OkStatus();
+    map_state_ = MapState::kLoading;
+  }
+  absl::StatusOr<JourneyMap> map = store_->LoadMap(name_);
+  const std::lock_guard map_lock(map_mutex_);
+  const std::lock_guard lock(mutex_);
+  // Another of the same name may have been made since, and its map been read.
+  const absl::Status status = deleted_ ? CheckPresent() : map.status();
+  if (!status.ok()) {
+    map_state_ = MapState::kNone;
+    unabsorbed_ = {};
+    return status;
+  }
+  map_ = *std::move(map);
+  map_state_ = MapState::kLoaded;
+  return absl::OkStatus();
+}
+
+bool LiveJourney::has_map() const {
+  const std::lock_guard lock(mutex_);
+  return map_state_ == MapState::kLoaded;
 }
 
 void LiveJourney::LockMap() {

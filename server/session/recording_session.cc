@@ -40,25 +40,23 @@ absl::StatusOr<std::shared_ptr<RecordingSession>> RecordingSession::Open(
                                                      evicted->End(reason);
                                                    }
                                                  }));
-  session->Start(std::move(claim));
+  HOMING_RETURN_IF_ERROR(session->Start(std::move(claim)));
   return session;
 }
 
-void RecordingSession::Start(WriterClaim claim) {
+absl::Status RecordingSession::Start(WriterClaim claim) {
   claim_ = std::move(claim);
+  HOMING_ASSIGN_OR_RETURN(const JourneyTail tail, claim_.journey->LoadTail());
   const storage::JourneyRecord record = claim_.journey->record();
   recorder_.emplace(record.settings, context_.limits);
-  {
-    const LiveJourneys one = {claim_.journey};
-    const MapsLock lock(one);
-    recorder_->Resume(claim_.journey->map());
-  }
+  recorder_->Resume(tail);
   kind_ = record.input;
   next_ = record.next_sequence;
   due_ = std::max<std::int64_t>(0, next_ - LookBack(kind_));
   const std::lock_guard lock(mutex_);
   durable_next_ = next_;
   Deliver({true, absl::OkStatus(), {std::nullopt, next_, due_, std::nullopt}});
+  return absl::OkStatus();
 }
 
 void RecordingSession::Record(const Observation& observation, TimePoint now) {

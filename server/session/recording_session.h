@@ -71,7 +71,7 @@ class RecordingSession : public std::enable_shared_from_this<RecordingSession> {
 
   RecordingSession(const RecordingContext& context, RecordingListener listener)
       : context_(context), listener_(std::move(listener)) {}
-  void Start(WriterClaim claim);
+  absl::Status Start(WriterClaim claim);
   absl::Status Process(const Observation& observation, TimePoint now, std::int64_t slot);
   absl::Status CheckDue(const Observation& observation) const;
   absl::Status CheckKind(const Observation& observation);

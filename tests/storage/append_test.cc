@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "tests/storage/store_fixture.h"
+#include "tests/support/journey_tail.h"
 #include "tests/support/status_matchers.h"
 
 namespace homing::storage {
@@ -64,6 +65,23 @@ TEST_P(AppendTest, LoadsTheFlowProfilesThatWereAppended) {
   AppendAll(*store_, kOther, MakeSteps(50));
   EXPECT_TRUE(store_->LoadMap(kOther)->profiles(Side::kLeft).empty());
   EXPECT_TRUE(SameMap(*store_->LoadMap(kJourney), expected));
+}
+
+TEST_P(AppendTest, TheTailIsThatOfTheMapAtEveryLength) {
+  EXPECT_THAT(store_->CreateJourney(Record(kOther)), IsOk());
+  AppendAll(*store_, kOther, MakeSteps(5));
+  std::vector<JourneyStep> steps = MakeSteps(30);
+  steps[20].fingerprints.clear();
+  for (std::size_t count = 0; count <= steps.size(); ++count) {
+    if (count > 0) AppendAll(*store_, kJourney, {steps[count - 1]});
+    const JourneyTail expected = test::TailOf(*store_->LoadMap(kJourney));
+    const auto tail = store_->LoadTail(kJourney);
+    ASSERT_THAT(tail, IsOk());
+    EXPECT_EQ(tail->step_count, static_cast<std::int64_t>(count));
+    EXPECT_EQ(tail->landmark_count, expected.landmark_count);
+    EXPECT_EQ(tail->steps, expected.steps);
+  }
+  EXPECT_THAT(store_->LoadTail("none"), StatusIs(absl::StatusCode::kNotFound, HasSubstr("none")));
 }
 
 TEST_P(AppendTest, AnObservationWithoutAStepMakesItsNumberDurable) {

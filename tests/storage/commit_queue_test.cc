@@ -38,6 +38,7 @@ class HeldStore : public JourneyStore {
   absl::Status FinishJourney(const std::string&) override { return result; }
   absl::Status SetWriter(const std::string&, const std::string&) override { return result; }
   absl::StatusOr<JourneyMap> LoadMap(const std::string&) override { return result; }
+  absl::StatusOr<JourneyTail> LoadTail(const std::string&) override { return result; }
   absl::Status ImportJourney(const JourneyRecord&, const JourneyMap&) override { return result; }
   absl::Status CreateModel(const StoredModel&) override { return result; }
   absl::StatusOr<StoredModel> GetModel(const std::string&) override { return result; }

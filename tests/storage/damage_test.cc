@@ -103,6 +103,22 @@ TEST_F(DamageTest, RowsThatContradictEachOtherAreDataLoss) {
   }
 }
 
+TEST_F(DamageTest, ATailThatContradictsItselfIsDataLoss) {
+  MakeFile(30);
+  const std::string original = path_ + ".original";
+  std::filesystem::copy_file(path_, original);
+  for (const std::string change :
+       {"DELETE FROM landmarks", "UPDATE fingerprints SET landmark = 5000",
+        "UPDATE journeys SET step_count = 29", "UPDATE journeys SET step_count = -1",
+        "UPDATE journeys SET step_count = 1000000000000"}) {
+    std::filesystem::copy_file(original, path_, std::filesystem::copy_options::overwrite_existing);
+    Execute(change);
+    EXPECT_THAT(OpenOrDie(folder_.Database())->LoadTail(kJourney),
+                StatusIs(absl::StatusCode::kDataLoss, HasSubstr("store")))
+        << change;
+  }
+}
+
 TEST_F(DamageTest, AFullDiskIsToldAndStoresNothingByHalves) {
   auto store = OpenOrDie(folder_.Database(), 200 * 1024);
   ASSERT_THAT(store->CreateJourney(Record(kJourney)), IsOk());

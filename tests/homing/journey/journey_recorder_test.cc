@@ -2,6 +2,7 @@
 
 #include <limits>
 
+#include "tests/support/journey_tail.h"
 #include "tests/support/status_matchers.h"
 #include "tests/support/travelling_robot.h"
 
@@ -36,7 +37,7 @@ JourneyMap RecordWithRestart(const std::vector<Observation>& observations, std::
   JourneyMap map =
       RecordAll({observations.begin(), observations.begin() + static_cast<std::ptrdiff_t>(cut)});
   JourneyRecorder recorder(map.settings());
-  recorder.Resume(map);
+  recorder.Resume(test::TailOf(map));
   for (std::size_t i = cut - std::min(cut, look_back); i < observations.size(); ++i) {
     RecordInto(recorder, observations[i], map);
   }

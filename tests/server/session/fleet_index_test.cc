@@ -9,6 +9,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "server/session/landmark_query.h"
+#include "tests/server/session/forwarding_store.h"
 #include "tests/server/session/session_fixture.h"
 #include "tests/support/status_matchers.h"
 
@@ -18,9 +19,9 @@ namespace {
 using ::testing::HasSubstr;
 
 // A store that does not list journeys until it is told to, with what it is told.
-class HeldStore final : public storage::JourneyStore {
+class HeldStore final : public ForwardingStore {
  public:
-  explicit HeldStore(storage::JourneyStore* store) : store_(store) {}
+  using ForwardingStore::ForwardingStore;
   void Release(absl::Status status) {
     const std::lock_guard lock(mutex_);
     released_ = std::move(status);
@@ -35,32 +36,8 @@ class HeldStore final : public storage::JourneyStore {
     if (!released_->ok()) return *released_;
     return store_->ListJourneys(prefix, after, limit);
   }
-  absl::StatusOr<JourneyMap> LoadMap(const std::string& name) override {
-    return store_->LoadMap(name);
-  }
-  absl::Status CreateJourney(const storage::JourneyRecord&) override { return Unused(); }
-  absl::StatusOr<storage::JourneyRecord> GetJourney(const std::string&) override {
-    return Unused();
-  }
-  absl::Status DeleteJourney(const std::string&) override { return Unused(); }
-  absl::Status FinishJourney(const std::string&) override { return Unused(); }
-  absl::Status SetWriter(const std::string&, const std::string&) override { return Unused(); }
-  std::vector<absl::Status> AppendSteps(const std::vector<storage::JourneyAppend>& a) override {
-    return std::vector<absl::Status>(a.size(), Unused());
-  }
-  absl::Status ImportJourney(const storage::JourneyRecord&, const JourneyMap&) override {
-    return Unused();
-  }
-  absl::Status CreateModel(const storage::StoredModel&) override { return Unused(); }
-  absl::StatusOr<storage::StoredModel> GetModel(const std::string&) override { return Unused(); }
-  absl::StatusOr<std::vector<storage::StoredModel>> ListModels(const std::string&, int) override {
-    return Unused();
-  }
 
  private:
-  static absl::Status Unused() { return absl::UnimplementedError("not in these tests"); }
-
-  storage::JourneyStore* const store_;
   std::mutex mutex_;
   std::condition_variable changed_;
   std::optional<absl::Status> released_;
