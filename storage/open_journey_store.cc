@@ -36,8 +36,8 @@ absl::Status MakeDurable(Connection& connection, const std::string& path) {
     }
     connection.Execute("PRAGMA synchronous=FULL");
     connection.Execute("PRAGMA journal_size_limit=67108864");
-    // Pages, as many as the limit: a thousand journeys change each page again and again, and what is
-    // moved into the file seldom is moved but once.
+    // Pages, as many as the limit: a thousand journeys change each page again and again, and what
+    // is moved into the file seldom is moved but once.
     connection.Execute("PRAGMA wal_autocheckpoint=16384");
     // KiB: a thousand journeys that grow have some four thousand pages in use.
     connection.Execute("PRAGMA cache_size=-16384");

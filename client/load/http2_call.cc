@@ -56,7 +56,7 @@ struct Http2Call::Callbacks {
                             nghttp2_data_source* /*source*/, void* user) {
     Http2Call& call = Of(user);
     const std::size_t count = std::min(size, call.queued_.size() - call.taken_);
-    std::memcpy(data, call.queued_.data() + call.taken_, count);
+    std::copy_n(call.queued_.data() + call.taken_, count, data);
     call.taken_ += count;
     if (call.taken_ == call.queued_.size()) {
       call.queued_.clear();

@@ -214,6 +214,7 @@ absl::StatusOr<LoadResult> DriveAll(const ConnectionOptions& connection, const L
                                     const std::stop_token& stop) {
   HOMING_ASSIGN_OR_RETURN(const Http2Endpoint endpoint, Http2Endpoint::Make(connection));
   std::vector<std::vector<std::string>> requests;
+  requests.reserve(scenes.size());
   for (const LoadScene& scene : scenes) requests.push_back(RequestsOf<Request>(scene));
   Drive<LoadRobot<Request, Response>> drive(options);
   for (int i = 0; i < options.robots; ++i) {

@@ -213,7 +213,7 @@ absl::Status LiveJourney::LoadMap() {
   const std::lock_guard map_lock(map_mutex_);
   const std::lock_guard lock(mutex_);
   // Another of the same name may have been made since, and its map been read.
-  const absl::Status status = deleted_ ? CheckPresent() : map.status();
+  absl::Status status = deleted_ ? CheckPresent() : map.status();
   if (!status.ok()) {
     map_state_ = MapState::kNone;
     unabsorbed_ = {};
