@@ -77,6 +77,7 @@ class PlainSqlite {
     Execute("PRAGMA journal_mode=WAL");
     Execute("PRAGMA synchronous=FULL");
     Execute("PRAGMA journal_size_limit=67108864");
+    Execute("PRAGMA wal_autocheckpoint=16384");
     Execute("PRAGMA cache_size=-16384");
     Execute("PRAGMA foreign_keys=ON");
     fingerprint_ = Prepare(
