@@ -176,7 +176,7 @@ void Http2Call::Flush() {
   }
 }
 
-void Http2Call::Receive() {
+void Http2Call::Receive(bool to_the_end) {
   std::array<char, kReadBytes> data;
   while (!done_) {
     const std::ptrdiff_t size = Read(data.data(), data.size());
@@ -187,7 +187,8 @@ void Http2Call::Receive() {
                                  static_cast<std::size_t>(size));
     if (taken < 0) return Finish(absl::InternalError(nghttp2_strerror(static_cast<int>(taken))));
     // A socket that gave less than was asked for is empty, and says when it no longer is.
-    if (tls_ == nullptr && static_cast<std::size_t>(size) < data.size()) break;
+    const bool is_empty = tls_ == nullptr && static_cast<std::size_t>(size) < data.size();
+    if (is_empty && !to_the_end) break;
   }
   Flush();
 }

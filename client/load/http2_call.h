@@ -40,8 +40,9 @@ class Http2Call {
   bool sent_all() const { return taken_ == queued_.size() && written_ == output_.size(); }
   // Sends as much as the peer and the socket take.
   void Flush();
-  // Takes what has come and answers what HTTP/2 asks for.
-  void Receive();
+  // Takes what has come and answers what HTTP/2 asks for. `to_the_end`: the peer has hung up, and
+  // nothing will tell of it again.
+  void Receive(bool to_the_end);
   bool done() const { return done_; }
   // REQUIRES: done.
   const absl::Status& status() const { return status_; }

@@ -79,10 +79,10 @@ class LoadRobot {
     SendDue();
   }
 
-  // The socket has something, or takes something again.
-  void Advance(LoadClock::time_point now) {
+  // The socket has something, takes something again, or was hung up.
+  void Advance(LoadClock::time_point now, bool hung_up) {
     now_ = now;
-    call_->Receive();
+    call_->Receive(hung_up);
     SendDue();
   }
 

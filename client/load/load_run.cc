@@ -169,7 +169,9 @@ class Drive {
       count = epoll_wait(epoll_, events.data(), static_cast<int>(events.size()), 0);
       const LoadClock::time_point now = LoadClock::now();
       for (int i = 0; i < count; ++i) {
-        static_cast<Robot*>(events[static_cast<std::size_t>(i)].data.ptr)->Advance(now);
+        const epoll_event& event = events[static_cast<std::size_t>(i)];
+        const bool hung_up = (event.events & (EPOLLRDHUP | EPOLLHUP | EPOLLERR)) != 0;
+        static_cast<Robot*>(event.data.ptr)->Advance(now, hung_up);
       }
     } while (count == static_cast<int>(events.size()));
   }
