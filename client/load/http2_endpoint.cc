@@ -23,10 +23,6 @@ std::string TlsError() {
   return text.data();
 }
 
-bool IsAddress(const std::string& host) {
-  return host.find_first_not_of("0123456789.:abcdefABCDEF") == std::string::npos;
-}
-
 }  // namespace
 
 absl::StatusOr<Http2Endpoint> Http2Endpoint::Make(const ConnectionOptions& options) {
@@ -89,10 +85,11 @@ absl::StatusOr<std::shared_ptr<SSL>> Http2Endpoint::Secure(int socket) const {
   if (tls_ == nullptr) return std::shared_ptr<SSL>();
   std::shared_ptr<SSL> tls(SSL_new(tls_.get()), SSL_free);
   SSL_set_fd(tls.get(), socket);
-  if (IsAddress(host_)) {
-    X509_VERIFY_PARAM_set1_ip_asc(SSL_get0_param(tls.get()), host_.c_str());
-  } else {
-    SSL_set1_host(tls.get(), host_.c_str());
+  // What is no address is a name; one of the two is always checked.
+  if (X509_VERIFY_PARAM_set1_ip_asc(SSL_get0_param(tls.get()), host_.c_str()) != 1) {
+    if (SSL_set1_host(tls.get(), host_.c_str()) != 1) {
+      return absl::InvalidArgumentError(absl::StrCat("--server: no host name in ", authority_));
+    }
     SSL_set_tlsext_host_name(tls.get(), host_.c_str());
   }
   if (SSL_connect(tls.get()) != 1) {

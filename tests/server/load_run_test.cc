@@ -1,10 +1,13 @@
 // Loads against the server itself, over a real socket.
 #include "client/load/load_run.h"
 
+#include <unistd.h>
+
 #include <fstream>
 #include <optional>
 #include <thread>
 
+#include "client/load/http2_endpoint.h"
 #include "server/access/certificate_folder.h"
 #include "server/access/token_book.h"
 #include "tests/server/server_fixture.h"
@@ -134,6 +137,15 @@ TEST_F(LoadRunTest, OverTlsWithACertificateOfTheClient) {
   connection_.tls_cert = folder_.File("pki/operators/chief.pem");
   connection_.tls_key = folder_.File("pki/operators/chief.key");
   ExpectAllAnswered(Run());
+  // 127.1 leads to the same server, and is not what its certificate says; it is no name either,
+  // though its letters would do for an address.
+  connection_.address = "127.1" + server_->address().substr(server_->address().rfind(':'));
+  const auto other = client::Http2Endpoint::Make(connection_);
+  ASSERT_THAT(other, IsOk());
+  const int socket = other->Dial().value();
+  EXPECT_THAT(other->Secure(socket).status(),
+              StatusIs(absl::StatusCode::kUnavailable, HasSubstr("TLS")));
+  close(socket);
 }
 
 }  // namespace
