@@ -1,27 +1,31 @@
-// A store that hands everything on to another: tests override what they watch or disturb.
-#ifndef TESTS_SERVER_SESSION_FORWARDING_STORE_H_
-#define TESTS_SERVER_SESSION_FORWARDING_STORE_H_
+// A store that hands everything on to another: who derives overrides what it watches or changes.
+// Source: own design.
+#ifndef STORAGE_FORWARDING_STORE_H_
+#define STORAGE_FORWARDING_STORE_H_
 
+#include <istream>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "storage/journey_store.h"
 
-namespace homing::server {
+namespace homing::storage {
 
-class ForwardingStore : public storage::JourneyStore {
+class ForwardingStore : public JourneyStore {
  public:
-  explicit ForwardingStore(storage::JourneyStore* store) : store_(store) {}
+  // `store` must outlive it.
+  explicit ForwardingStore(JourneyStore* store) : store_(store) {}
 
-  absl::Status CreateJourney(const storage::JourneyRecord& record) override {
+  absl::Status CreateJourney(const JourneyRecord& record) override {
     return store_->CreateJourney(record);
   }
-  absl::StatusOr<storage::JourneyRecord> GetJourney(const std::string& name) override {
+  absl::StatusOr<JourneyRecord> GetJourney(const std::string& name) override {
     return store_->GetJourney(name);
   }
-  absl::StatusOr<std::vector<storage::JourneyRecord>> ListJourneys(const std::string& prefix,
-                                                                   const std::string& after,
-                                                                   int limit) override {
+  absl::StatusOr<std::vector<JourneyRecord>> ListJourneys(const std::string& prefix,
+                                                          const std::string& after,
+                                                          int limit) override {
     return store_->ListJourneys(prefix, after, limit);
   }
   absl::Status DeleteJourney(const std::string& name) override {
@@ -33,8 +37,7 @@ class ForwardingStore : public storage::JourneyStore {
   absl::Status SetWriter(const std::string& name, const std::string& writer_id) override {
     return store_->SetWriter(name, writer_id);
   }
-  std::vector<absl::Status> AppendSteps(
-      const std::vector<storage::JourneyAppend>& appends) override {
+  std::vector<absl::Status> AppendSteps(const std::vector<JourneyAppend>& appends) override {
     return store_->AppendSteps(appends);
   }
   absl::StatusOr<JourneyMap> LoadMap(const std::string& name) override {
@@ -43,24 +46,26 @@ class ForwardingStore : public storage::JourneyStore {
   absl::StatusOr<JourneyTail> LoadTail(const std::string& name) override {
     return store_->LoadTail(name);
   }
-  absl::Status ImportJourney(const storage::JourneyRecord& record, const JourneyMap& map) override {
+  absl::Status ImportJourney(const JourneyRecord& record, const JourneyMap& map) override {
     return store_->ImportJourney(record, map);
   }
-  absl::Status CreateModel(const storage::StoredModel& model) override {
-    return store_->CreateModel(model);
-  }
-  absl::StatusOr<storage::StoredModel> GetModel(const std::string& name) override {
+  absl::Status WriteHealth() override { return store_->WriteHealth(); }
+  absl::Status ProbeWrite() override { return store_->ProbeWrite(); }
+  bool read_only() const override { return store_->read_only(); }
+  absl::StatusOr<std::unique_ptr<std::istream>> BackUp() override { return store_->BackUp(); }
+  absl::Status CreateModel(const StoredModel& model) override { return store_->CreateModel(model); }
+  absl::StatusOr<StoredModel> GetModel(const std::string& name) override {
     return store_->GetModel(name);
   }
-  absl::StatusOr<std::vector<storage::StoredModel>> ListModels(const std::string& after,
-                                                               int limit) override {
+  absl::StatusOr<std::vector<StoredModel>> ListModels(const std::string& after,
+                                                      int limit) override {
     return store_->ListModels(after, limit);
   }
 
  protected:
-  storage::JourneyStore* const store_;
+  JourneyStore* const store_;
 };
 
-}  // namespace homing::server
+}  // namespace homing::storage
 
-#endif  // TESTS_SERVER_SESSION_FORWARDING_STORE_H_
+#endif  // STORAGE_FORWARDING_STORE_H_

@@ -9,7 +9,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "server/session/landmark_query.h"
-#include "tests/server/session/forwarding_store.h"
+#include "storage/forwarding_store.h"
 #include "tests/server/session/session_fixture.h"
 #include "tests/support/status_matchers.h"
 
@@ -19,7 +19,7 @@ namespace {
 using ::testing::HasSubstr;
 
 // A store that does not list journeys until it is told to, with what it is told.
-class HeldStore final : public ForwardingStore {
+class HeldStore final : public storage::ForwardingStore {
  public:
   using ForwardingStore::ForwardingStore;
   void Release(absl::Status status) {

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "server/session/homing_session.h"
-#include "tests/server/session/forwarding_store.h"
+#include "storage/forwarding_store.h"
 #include "tests/server/session/session_fixture.h"
 
 namespace homing::server {
@@ -17,7 +17,7 @@ using ::testing::HasSubstr;
 using LoadResult = absl::StatusOr<JourneyMap>;
 
 // Counts the loads; `next_load`, if set, takes the place of the next one.
-class WatchedStore final : public ForwardingStore {
+class WatchedStore final : public storage::ForwardingStore {
  public:
   using ForwardingStore::ForwardingStore;
   LoadResult LoadMap(const std::string& name) override {
@@ -169,7 +169,7 @@ TEST_F(LiveJourneyTest, OneDeletedWhileItsMapIsLoadedIsNotFoundAlsoIfAnotherTook
 TEST_F(LiveJourneyTest, AWriterWhoseTailCannotBeReadIsToldAndMayTryAgain) {
   RecordFlow(0, 10);
   StartOver();
-  class TaillessStore final : public ForwardingStore {
+  class TaillessStore final : public storage::ForwardingStore {
    public:
     using ForwardingStore::ForwardingStore;
     absl::StatusOr<JourneyTail> LoadTail(const std::string& name) override {
