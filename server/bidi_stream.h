@@ -1,4 +1,4 @@
-// A two-way stream whose messages are handled in order on the pool, with a bounded read-ahead.
+// A two-way stream whose messages are handled in order, with a bounded read-ahead.
 // Source: own design.
 #ifndef SERVER_BIDI_STREAM_H_
 #define SERVER_BIDI_STREAM_H_
@@ -131,7 +131,7 @@ class BidiStream : public grpc::ServerBidiReactor<Request, Response>,
   }
 
  protected:
-  // On the pool, one at a time, in order. Each request comes to one Answer, one NoAnswer or an End.
+  // One at a time, in order. Each request comes to one Answer, one NoAnswer or an End.
   virtual absl::Status Handle(const Request& request) = 0;
   virtual void HandleDrain() { End(DrainingError()); }
   // Let go of what belongs to the stream.

@@ -46,6 +46,16 @@ class LinkTest : public server::ServerTest {
   int calm_journeys_ = 0;
 };
 
+TEST_F(LinkTest, EachConnectionOfAProgramIsALinkOfItsOwn) {
+  client::ConnectionOptions options;
+  options.address = link_.address();
+  const auto one = client::Connection::Open(options).value();
+  const auto another = client::Connection::Open(options).value();
+  EXPECT_THAT(one.WaitForServer(), IsOk());
+  EXPECT_THAT(another.WaitForServer(), IsOk());
+  EXPECT_EQ(link_.connections(), 2);
+}
+
 class CutTest : public LinkTest, public ::testing::WithParamInterface<int> {};
 
 INSTANTIATE_TEST_SUITE_P(Sent, CutTest, ::testing::Values(0, 1), [](const auto& sent) {
