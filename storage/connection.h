@@ -40,6 +40,14 @@ class Query {
     const SQLite::Column value = statement_->getColumn(column);
     return {static_cast<const char*>(value.getBlob()), static_cast<std::size_t>(value.getBytes())};
   }
+  bool IsNull(int column) { return statement_->isColumnNull(column); }
+  // All are NULL until they are bound.
+  void ClearValues() { statement_->clearBindings(); }
+  // Value `index`, from 1.
+  template <typename Value>
+  void Bind(int index, Value value) {
+    statement_->bind(index, value);
+  }
   // Value `index`, from 1, is a BLOB.
   void BindBytes(int index, const std::string& bytes) {
     statement_->bind(index, bytes.data(), static_cast<int>(bytes.size()));

@@ -12,17 +12,23 @@ namespace {
 
 constexpr char kInsertJourney[] =
     "INSERT INTO journeys (name, state, writer_id, readers, input, next_sequence, create_time_ns,"
-    " start_time_ns, end_time_ns, step_count, landmark_count, fingerprint_count, settings)"
-    " VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?) ON CONFLICT (name) DO NOTHING RETURNING journey_id";
+    " start_time_ns, end_time_ns, step_count, landmark_count, fingerprint_count)"
+    " VALUES (?,?,?,?,?,?,?,?,?,?,?,?) ON CONFLICT (name) DO NOTHING RETURNING journey_id";
 
 #define HOMING_JOURNEY_COLUMNS                                                         \
   "journey_id, name, state, writer_id, readers, input, next_sequence, create_time_ns," \
-  " start_time_ns, end_time_ns, step_count, landmark_count, fingerprint_count, settings"
+  " start_time_ns, end_time_ns, step_count, landmark_count, fingerprint_count,"        \
+  " coalesce(settings, '')"
 
-constexpr char kFindJourney[] = "SELECT " HOMING_JOURNEY_COLUMNS " FROM journeys WHERE name = ?";
-constexpr char kListJourneys[] = "SELECT " HOMING_JOURNEY_COLUMNS
-                                 " FROM journeys WHERE name > ? AND name >= ? AND name < ?"
+#define HOMING_JOURNEYS " FROM journeys LEFT JOIN journey_settings USING (journey_id)"
+
+constexpr char kFindJourney[] = "SELECT " HOMING_JOURNEY_COLUMNS HOMING_JOURNEYS " WHERE name = ?";
+constexpr char kListJourneys[] = "SELECT " HOMING_JOURNEY_COLUMNS HOMING_JOURNEYS
+                                 " WHERE name > ? AND name >= ? AND name < ?"
                                  " ORDER BY name LIMIT ?";
+constexpr char kInsertSettings[] =
+    "INSERT INTO journey_settings (journey_id, settings) VALUES (?,?)";
+constexpr char kSetSettings[] = "UPDATE journey_settings SET settings = ? WHERE journey_id = ?";
 constexpr char kDelete[] = "DELETE FROM journeys WHERE name = ?";
 constexpr char kSetState[] = "UPDATE journeys SET state = ? WHERE name = ?";
 constexpr char kSetWriter[] = "UPDATE journeys SET writer_id = ? WHERE name = ?";
@@ -64,12 +70,13 @@ absl::StatusOr<std::int64_t> InsertJourney(Connection& connection, const Journey
   Query query = connection.Prepare(
       kInsertJourney, record.name, Word(record.state), record.writer_id, ToJson(record.readers),
       Word(record.input), record.next_sequence, record.create_time_ns, record.start_time_ns,
-      record.end_time_ns, record.step_count, record.landmark_count, record.fingerprint_count,
-      ToJson(record.settings));
+      record.end_time_ns, record.step_count, record.landmark_count, record.fingerprint_count);
   if (!query.Next()) {
     return absl::AlreadyExistsError(absl::StrCat("journey '", record.name, "' already exists"));
   }
-  return query.Integer(0);
+  const std::int64_t id = query.Integer(0);
+  connection.Prepare(kInsertSettings, id, ToJson(record.settings)).Run();
+  return id;
 }
 
 absl::StatusOr<JourneyRow> FindJourney(Connection& connection, const std::string& name) {
@@ -97,6 +104,11 @@ absl::Status DeleteJourneyRow(Connection& connection, const std::string& name) {
 
 absl::Status SetJourneyState(Connection& connection, const std::string& name, JourneyState state) {
   return FoundIf(connection.Prepare(kSetState, Word(state), name).Run(), name);
+}
+
+void SetJourneySettings(Connection& connection, std::int64_t journey_id,
+                        const JourneySettings& settings) {
+  connection.Prepare(kSetSettings, ToJson(settings), journey_id).Run();
 }
 
 absl::Status SetJourneyWriter(Connection& connection, const std::string& name,

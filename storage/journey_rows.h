@@ -1,5 +1,5 @@
-// Rows of the table `journeys`. All functions are used in the body of a transaction and throw
-// SQLite::Exception, which ends the transaction. Source: own design.
+// Rows of `journeys` and `journey_settings`. All functions are used in the body of a transaction
+// and throw SQLite::Exception, which ends the transaction. Source: own design.
 #ifndef STORAGE_JOURNEY_ROWS_H_
 #define STORAGE_JOURNEY_ROWS_H_
 
@@ -31,6 +31,8 @@ absl::StatusOr<std::vector<JourneyRecord>> ListJourneyRows(Connection& connectio
 // NOT_FOUND.
 absl::Status DeleteJourneyRow(Connection& connection, const std::string& name);
 absl::Status SetJourneyState(Connection& connection, const std::string& name, JourneyState state);
+void SetJourneySettings(Connection& connection, std::int64_t journey_id,
+                        const JourneySettings& settings);
 absl::Status SetJourneyWriter(Connection& connection, const std::string& name,
                               const std::string& writer_id);
 

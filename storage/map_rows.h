@@ -1,4 +1,4 @@
-// Whole maps from and to the rows of `landmarks` and `fingerprints`. Used in the body of a
+// Whole maps from and to the rows of `steps`. Used in the body of a
 // transaction; throws SQLite::Exception, which ends the transaction. Source: own design.
 #ifndef STORAGE_MAP_ROWS_H_
 #define STORAGE_MAP_ROWS_H_
@@ -14,8 +14,6 @@ namespace homing::storage {
 absl::StatusOr<JourneyMap> ReadMap(Connection& connection, const JourneyRow& journey);
 // As JourneyStore::LoadTail. DATA_LOSS.
 absl::StatusOr<JourneyTail> ReadTail(Connection& connection, const JourneyRow& journey);
-// One row of `fingerprints`; `id` by FingerprintId.
-void InsertFingerprint(Connection& connection, std::int64_t id, const Fingerprint& fingerprint);
 // All rows of a journey that has none yet.
 void WriteMap(Connection& connection, std::int64_t journey_id, const JourneyMap& map);
 

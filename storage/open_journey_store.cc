@@ -36,11 +36,8 @@ absl::Status MakeDurable(Connection& connection, const std::string& path) {
     }
     connection.Execute("PRAGMA synchronous=FULL");
     connection.Execute("PRAGMA journal_size_limit=67108864");
-    // Pages, as many as the limit: a thousand journeys change each page again and again, and what
-    // is moved into the file seldom is moved but once.
-    connection.Execute("PRAGMA wal_autocheckpoint=16384");
-    // KiB: a thousand journeys that grow have some four thousand pages in use.
-    connection.Execute("PRAGMA cache_size=-16384");
+    // KiB: a thousand journeys that grow have some fifteen hundred pages in use.
+    connection.Execute("PRAGMA cache_size=-6144");
     return absl::OkStatus();
   });
 }
@@ -98,8 +95,12 @@ absl::StatusOr<std::unique_ptr<JourneyStore>> OpenJourneyStore(const StoreOption
     queries = std::make_unique<QueryConnections>(path, Connection::Access::kReadOnly,
                                                  options.busy_timeout_ms, kMaxQueryConnections);
   }
-  return std::make_unique<SqliteJourneyStore>(path, std::move(lock), std::move(writer),
-                                              std::move(queries));
+  auto store = std::make_unique<SqliteJourneyStore>(path, std::move(lock), std::move(writer),
+                                                    std::move(queries));
+  if (path != kInMemory) {
+    HOMING_RETURN_IF_ERROR(store->StartCheckpoints(options.busy_timeout_ms));
+  }
+  return store;
 }
 
 }  // namespace homing::storage

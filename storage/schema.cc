@@ -97,8 +97,101 @@ CREATE TRIGGER journey_profiles_deleted AFTER DELETE ON journeys BEGIN
 END;
 )sql";
 
+// From version 2 to 3: a step is one row, in one page, where it was up to ten rows in three tables
+// (docs/decisions/0036). What landmarks had of their own is the mean of what their steps have. The
+// settings, ten times as long as the rest of a journey's row, which changes with each step, move
+// away from it.
+constexpr char kVersion3[] = R"sql(
+DROP VIEW journey_landmarks;
+DROP VIEW journey_fingerprints;
+DROP TRIGGER journey_deleted;
+DROP TRIGGER journey_profiles_deleted;
+
+CREATE TABLE journey_settings (
+  journey_id INTEGER PRIMARY KEY REFERENCES journeys ON DELETE CASCADE,
+  settings   TEXT    NOT NULL
+) STRICT;
+INSERT INTO journey_settings SELECT journey_id, settings FROM journeys;
+ALTER TABLE journeys DROP COLUMN settings;
+
+-- step_id = journey_id * 2^25 + step. NULL: fewer than two fingerprints on that side; no profile.
+CREATE TABLE steps (
+  step_id         INTEGER PRIMARY KEY,
+  left1_landmark  INTEGER, left1_x  REAL, left1_y  REAL, left1_count  INTEGER, left1_spread  REAL,
+  left2_landmark  INTEGER, left2_x  REAL, left2_y  REAL, left2_count  INTEGER, left2_spread  REAL,
+  right1_landmark INTEGER, right1_x REAL, right1_y REAL, right1_count INTEGER, right1_spread REAL,
+  right2_landmark INTEGER, right2_x REAL, right2_y REAL, right2_count INTEGER, right2_spread REAL,
+  left_profile    BLOB,
+  right_profile   BLOB,
+  journey_id      INTEGER AS (step_id >> 25) VIRTUAL,
+  step            INTEGER AS (step_id & 0x1ffffff) VIRTUAL
+) STRICT;
+
+WITH places AS (
+  SELECT f.fingerprint_id >> 2 AS step_id,
+         l.side || row_number() OVER (
+           PARTITION BY f.fingerprint_id >> 2, l.side ORDER BY f.fingerprint_id) AS place,
+         f.landmark, f.x, f.y, f.count, l.spread
+  FROM fingerprints f
+  JOIN landmarks l ON l.journey_id = f.fingerprint_id >> 27 AND l.landmark = f.landmark)
+INSERT INTO steps
+SELECT step_id,
+       max(landmark) FILTER (WHERE place = 'LEFT1'), max(x) FILTER (WHERE place = 'LEFT1'),
+       max(y) FILTER (WHERE place = 'LEFT1'), max(count) FILTER (WHERE place = 'LEFT1'),
+       max(spread) FILTER (WHERE place = 'LEFT1'),
+       max(landmark) FILTER (WHERE place = 'LEFT2'), max(x) FILTER (WHERE place = 'LEFT2'),
+       max(y) FILTER (WHERE place = 'LEFT2'), max(count) FILTER (WHERE place = 'LEFT2'),
+       max(spread) FILTER (WHERE place = 'LEFT2'),
+       max(landmark) FILTER (WHERE place = 'RIGHT1'), max(x) FILTER (WHERE place = 'RIGHT1'),
+       max(y) FILTER (WHERE place = 'RIGHT1'), max(count) FILTER (WHERE place = 'RIGHT1'),
+       max(spread) FILTER (WHERE place = 'RIGHT1'),
+       max(landmark) FILTER (WHERE place = 'RIGHT2'), max(x) FILTER (WHERE place = 'RIGHT2'),
+       max(y) FILTER (WHERE place = 'RIGHT2'), max(count) FILTER (WHERE place = 'RIGHT2'),
+       max(spread) FILTER (WHERE place = 'RIGHT2'),
+       NULL, NULL
+FROM places GROUP BY step_id ORDER BY step_id;
+INSERT INTO steps (step_id, left_profile)
+SELECT profile_id >> 2, cells FROM profiles WHERE profile_id & 3 = 0 ORDER BY profile_id
+ON CONFLICT DO UPDATE SET left_profile = excluded.left_profile;
+INSERT INTO steps (step_id, right_profile)
+SELECT profile_id >> 2, cells FROM profiles WHERE profile_id & 3 = 1 ORDER BY profile_id
+ON CONFLICT DO UPDATE SET right_profile = excluded.right_profile;
+
+DROP TABLE fingerprints;
+DROP TABLE landmarks;
+DROP TABLE profiles;
+
+CREATE TRIGGER journey_deleted AFTER DELETE ON journeys BEGIN
+  DELETE FROM steps
+  WHERE step_id BETWEEN OLD.journey_id << 25 AND (OLD.journey_id << 25) + 0x1ffffff;
+END;
+
+CREATE VIEW journey_fingerprints AS
+  SELECT j.name AS journey, s.step, CASE WHEN place < 2 THEN 'LEFT' ELSE 'RIGHT' END AS side,
+         CASE place WHEN 0 THEN left1_landmark WHEN 1 THEN left2_landmark WHEN 2 THEN right1_landmark
+                    ELSE right2_landmark END AS landmark,
+         CASE place WHEN 0 THEN left1_x WHEN 1 THEN left2_x WHEN 2 THEN right1_x
+                    ELSE right2_x END AS x,
+         CASE place WHEN 0 THEN left1_y WHEN 1 THEN left2_y WHEN 2 THEN right1_y
+                    ELSE right2_y END AS y,
+         CASE place WHEN 0 THEN left1_count WHEN 1 THEN left2_count WHEN 2 THEN right1_count
+                    ELSE right2_count END AS count,
+         CASE place WHEN 0 THEN left1_spread WHEN 1 THEN left2_spread WHEN 2 THEN right1_spread
+                    ELSE right2_spread END AS spread
+  FROM journeys j
+  JOIN steps s ON s.step_id BETWEEN j.journey_id << 25 AND (j.journey_id << 25) + 0x1ffffff
+  JOIN (SELECT 0 AS place UNION ALL SELECT 1 UNION ALL SELECT 2 UNION ALL SELECT 3)
+  WHERE CASE place WHEN 0 THEN left1_landmark WHEN 1 THEN left2_landmark
+                   WHEN 2 THEN right1_landmark ELSE right2_landmark END IS NOT NULL;
+
+CREATE VIEW journey_landmarks AS
+  SELECT journey, landmark, side, min(step) AS first_step, max(step) AS last_step,
+         count(*) AS fingerprint_count, avg(spread) AS spread
+  FROM journey_fingerprints GROUP BY journey, landmark;
+)sql";
+
 // kMigrations[v] goes from version v to v + 1. Never changed once released.
-constexpr std::array<const char*, kSchemaVersion> kMigrations = {kVersion1, kVersion2};
+constexpr std::array<const char*, kSchemaVersion> kMigrations = {kVersion1, kVersion2, kVersion3};
 
 absl::Status CheckOwner(Connection& connection, std::int64_t version) {
   const std::int64_t application = connection.Integer("PRAGMA application_id");

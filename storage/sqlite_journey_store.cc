@@ -8,11 +8,16 @@
 #include "storage/model_rows.h"
 #include "storage/schema.h"
 #include "storage/sqlite_status.h"
-#include "storage/step_rows.h"
 
 namespace homing::storage {
 
-absl::Status SqliteJourneyStore::Write(const Body& body) {
+absl::Status SqliteJourneyStore::StartCheckpoints(int busy_timeout_ms) {
+  HOMING_ASSIGN_OR_RETURN(
+      checkpointer_, Checkpointer::Start(path_, writer_.get(), &write_mutex_, busy_timeout_ms));
+  return absl::OkStatus();
+}
+
+absl::Status SqliteJourneyStore::Transact(const Body& body) {
   if (read_only()) {
     return absl::FailedPreconditionError(
         "store: it is read-only (--readonly): nothing can be recorded, changed or deleted");
@@ -20,8 +25,16 @@ absl::Status SqliteJourneyStore::Write(const Body& body) {
   std::lock_guard lock(write_mutex_);
   const int changes = writer_->changes();
   absl::Status status = writer_->Write([&] { return body(*writer_); });
+  if (!status.ok()) appends_.Forget();
   NoteHealth(status, writer_->changes() != changes);
   return status;
+}
+
+absl::Status SqliteJourneyStore::Write(const Body& body) {
+  return Transact([&](Connection& connection) {
+    appends_.Forget();
+    return body(connection);
+  });
 }
 
 void SqliteJourneyStore::NoteHealth(const absl::Status& written, bool changed) {
@@ -100,10 +113,10 @@ std::vector<absl::Status> SqliteJourneyStore::AppendSteps(
     const std::vector<JourneyAppend>& appends) {
   std::vector<absl::Status> statuses;
   statuses.reserve(appends.size());
-  const absl::Status transaction = Write([&](Connection& connection) {
-    StepAppends batch(&connection);
-    for (const JourneyAppend& append : appends) statuses.push_back(batch.Append(append));
-    batch.Write();
+  const absl::Status transaction = Transact([&](Connection&) {
+    appends_.Begin();
+    for (const JourneyAppend& append : appends) statuses.push_back(appends_.Append(append));
+    appends_.Write();
     return absl::OkStatus();
   });
   if (!transaction.ok()) statuses.assign(appends.size(), transaction);

@@ -8,9 +8,11 @@
 #include <string>
 #include <vector>
 
+#include "storage/checkpointer.h"
 #include "storage/connection.h"
 #include "storage/journey_store.h"
 #include "storage/query_connections.h"
+#include "storage/step_appends.h"
 #include "storage/store_lock.h"
 
 namespace homing::storage {
@@ -24,7 +26,11 @@ class SqliteJourneyStore final : public JourneyStore {
       : path_(std::move(path)),
         lock_(std::move(lock)),
         writer_(std::move(writer)),
+        appends_(writer_.get()),
         queries_(std::move(queries)) {}
+
+  // REQUIRES: a file, and not read-only. Once.
+  absl::Status StartCheckpoints(int busy_timeout_ms);
 
   absl::Status CreateJourney(const JourneyRecord& record) override;
   absl::StatusOr<JourneyRecord> GetJourney(const std::string& name) override;
@@ -48,7 +54,9 @@ class SqliteJourneyStore final : public JourneyStore {
 
  private:
   using Body = std::function<absl::Status(Connection&)>;
+  // In one transaction: what changes more than appends do, which then read their rows again.
   absl::Status Write(const Body& body);
+  absl::Status Transact(const Body& body);
   // REQUIRES write_mutex_.
   void NoteHealth(const absl::Status& written, bool changed);
   absl::Status Read(const Body& body);
@@ -62,10 +70,14 @@ class SqliteJourneyStore final : public JourneyStore {
   std::mutex write_mutex_;
   // Guarded by write_mutex_, the pointer apart.
   const std::unique_ptr<Connection> writer_;
+  // Guarded by write_mutex_.
+  StepAppends appends_;
   std::mutex health_mutex_;
   // Guarded by health_mutex_, so that asking never waits for a write.
   absl::Status write_health_;
   std::unique_ptr<QueryConnections> queries_;
+  // Ends before the writer.
+  std::unique_ptr<Checkpointer> checkpointer_;
   // While a copy is being made.
   std::mutex backup_mutex_;
 };

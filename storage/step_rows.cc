@@ -1,271 +1,108 @@
 #include "storage/step_rows.h"
 
-#include <algorithm>
-#include <cmath>
-#include <set>
+#include <array>
+#include <string>
 
-#include "absl/strings/str_cat.h"
 #include "homing/landmark/profile_code.h"
 #include "homing/status_macros.h"
-#include "storage/fingerprint_id.h"
-#include "storage/journey_rows.h"
-#include "storage/map_rows.h"
-#include "storage/row_words.h"
-#include "storage/settings_json.h"
+#include "storage/step_id.h"
 
 namespace homing::storage {
 namespace {
 
-constexpr char kFindActive[] =
-    "SELECT journey_id, state, input, next_sequence, step_count, landmark_count FROM journeys"
-    " WHERE name = ?";
-constexpr char kFindLandmark[] =
-    "SELECT side, first_step, last_step, fingerprint_count, spread FROM landmarks"
-    " WHERE journey_id = ? AND landmark = ?";
-constexpr char kUpdate[] =
-    "UPDATE journeys SET next_sequence = ?2, input = ?3,"
-    " start_time_ns = CASE start_time_ns WHEN 0 THEN ?4 ELSE start_time_ns END,"
-    " end_time_ns = CASE ?5 WHEN 0 THEN end_time_ns ELSE ?5 END,"
-    " step_count = ?6, landmark_count = ?7, fingerprint_count = fingerprint_count + ?8"
-    " WHERE journey_id = ?1";
-constexpr char kSetSettings[] = "UPDATE journeys SET settings = ? WHERE journey_id = ?";
-constexpr char kInsertLandmark[] =
-    "INSERT INTO landmarks (journey_id, landmark, side, first_step, last_step, fingerprint_count,"
-    " spread) VALUES (?,?,?,?,?,?,?)";
-constexpr char kInsertProfile[] = "INSERT INTO profiles (profile_id, cells) VALUES (?,?)";
-constexpr char kUpdateLandmark[] =
-    "UPDATE landmarks SET last_step = ?3, fingerprint_count = ?4, spread = ?5"
-    " WHERE journey_id = ?1 AND landmark = ?2";
+#define HOMING_STEP_COLUMNS                                               \
+  "step_id, left1_landmark, left1_x, left1_y, left1_count, left1_spread," \
+  " left2_landmark, left2_x, left2_y, left2_count, left2_spread,"         \
+  " right1_landmark, right1_x, right1_y, right1_count, right1_spread,"    \
+  " right2_landmark, right2_x, right2_y, right2_count, right2_spread,"    \
+  " left_profile, right_profile"
 
-// Two a camera (paper III).
-constexpr int kMaxFingerprintsPerSide = 2;
-constexpr double kMaxSpread = 1e9;
+constexpr char kInsert[] = "INSERT INTO steps (" HOMING_STEP_COLUMNS
+                           ") VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)";
+constexpr char kSelect[] =
+    "SELECT " HOMING_STEP_COLUMNS " FROM steps WHERE step_id >= ? AND step_id < ? ORDER BY step_id";
+constexpr char kSelectLandmarksBack[] =
+    "SELECT left1_landmark, left2_landmark, right1_landmark, right2_landmark FROM steps"
+    " WHERE step_id >= ? AND step_id < ? ORDER BY step_id DESC";
 
-absl::Status CheckValues(const RecordedFingerprint& recorded) {
-  const Fingerprint& fingerprint = recorded.fingerprint;
-  if (!std::isfinite(fingerprint.x) || !std::isfinite(fingerprint.y)) {
-    return absl::InvalidArgumentError(absl::StrCat("mean of landmark ", fingerprint.landmark,
-                                                   " is (", fingerprint.x, ", ", fingerprint.y,
-                                                   "): must be finite"));
-  }
-  if (!(recorded.spread >= 0 && recorded.spread <= kMaxSpread)) {
-    return absl::InvalidArgumentError(absl::StrCat("spread of landmark ", fingerprint.landmark,
-                                                   " is ", recorded.spread, ": must be 0 to ",
-                                                   kMaxSpread));
-  }
-  if (fingerprint.count <= 0) {
-    return absl::InvalidArgumentError(absl::StrCat("count of landmark ", fingerprint.landmark,
-                                                   " is ", fingerprint.count,
-                                                   ": must be at least 1"));
-  }
-  return absl::OkStatus();
-}
+// Of a fingerprint: landmark, x, y, count, spread.
+constexpr int kColumnsOfPlace = 5;
+constexpr int kPlacesOfSide = 2;
+constexpr int kFirstProfile = 1 + 2 * kPlacesOfSide * kColumnsOfPlace;
 
-// Left before right, at most two on a side.
-absl::Status CheckOrder(const JourneyStep& step) {
-  int left = 0;
-  int right = 0;
-  for (const RecordedFingerprint& recorded : step.fingerprints) {
-    const bool is_left = recorded.side == Side::kLeft;
-    if (is_left && right > 0) {
-      return absl::InvalidArgumentError(
-          absl::StrCat("step ", step.step, " has right before left: left must come first"));
-    }
-    if (++(is_left ? left : right) > kMaxFingerprintsPerSide) {
-      return absl::InvalidArgumentError(absl::StrCat(
-          "step ", step.step, " has over ", kMaxFingerprintsPerSide, " fingerprints on one side"));
-    }
-  }
-  return absl::OkStatus();
-}
+Side SideOfPlace(int place) { return Side{place / kPlacesOfSide}; }
 
-void WriteProfiles(Connection& connection, std::int64_t journey_id, const JourneyStep& step) {
-  for (std::size_t side = 0; side < step.profiles.size(); ++side) {
-    if (step.profiles[side]) {
-      WriteProfile(connection, journey_id, step.step, Side{static_cast<int>(side)},
-                   *step.profiles[side]);
-    }
-  }
+// Of the `nth` fingerprint on a side, in SELECT, from 0.
+int ColumnOf(Side side, int nth) {
+  return 1 + (static_cast<int>(side) * kPlacesOfSide + nth) * kColumnsOfPlace;
 }
 
 }  // namespace
 
-void InsertLandmark(Connection& connection, std::int64_t journey_id, std::int32_t number,
-                    const Landmark& landmark) {
-  connection
-      .Prepare(kInsertLandmark, journey_id, number, Word(landmark.side), landmark.first_step,
-               landmark.last_step, landmark.fingerprint_count, landmark.spread)
-      .Run();
-}
-
-void WriteProfile(Connection& connection, std::int64_t journey_id, std::int64_t step, Side side,
-                  const FlowProfile& profile) {
-  const std::string cells = EncodeProfile(profile);
-  if (!cells.empty()) {
-    Query query =
-        connection.Prepare(kInsertProfile, FingerprintId(journey_id, step, static_cast<int>(side)));
-    query.BindBytes(2, cells);
-    query.Run();
+void InsertStep(Connection& connection, std::int64_t journey_id, const JourneyStep& step) {
+  std::array<std::string, 2> cells;
+  for (std::size_t side = 0; side < cells.size(); ++side) {
+    if (step.profiles[side]) cells[side] = EncodeProfile(*step.profiles[side]);
   }
-}
-
-absl::StatusOr<StepAppends::JourneyColumns*> StepAppends::Find(const std::string& name) {
-  if (const auto known = journeys_.find(name); known != journeys_.end()) return &known->second;
-  Query query = connection_->Prepare(kFindActive, name);
-  if (!query.Next()) return JourneyNotFound(name);
-  JourneyColumns journey;
-  journey.id = query.Integer(0);
-  HOMING_ASSIGN_OR_RETURN(journey.state, StateOfWord(query.Text(1)));
-  HOMING_ASSIGN_OR_RETURN(journey.input, InputOfWord(query.Text(2)));
-  journey.next_sequence = query.Integer(3);
-  journey.step_count = query.Integer(4);
-  journey.landmark_count = static_cast<std::int32_t>(query.Integer(5));
-  return &journeys_.emplace(name, std::move(journey)).first->second;
-}
-
-absl::StatusOr<StepAppends::LandmarkRow*> StepAppends::FindLandmark(JourneyColumns& journey,
-                                                                    std::int32_t landmark) {
-  const auto known = journey.landmarks.find(landmark);
-  if (known != journey.landmarks.end()) return &known->second;
-  Query query = connection_->Prepare(kFindLandmark, journey.id, landmark);
-  if (!query.Next()) return nullptr;
-  LandmarkRow row;
-  HOMING_ASSIGN_OR_RETURN(row.landmark.side, SideOfWord(query.Text(0)));
-  row.landmark.first_step = query.Integer(1);
-  row.landmark.last_step = query.Integer(2);
-  row.landmark.fingerprint_count = static_cast<std::int32_t>(query.Integer(3));
-  row.landmark.spread = query.Real(4);
-  return &journey.landmarks.emplace(landmark, row).first->second;
-}
-
-absl::Status StepAppends::CheckContinues(const JourneyColumns& journey,
-                                         const JourneyAppend& append) {
-  if (journey.state != JourneyState::kActive) {
-    return absl::FailedPreconditionError(
-        absl::StrCat("journey '", append.journey, "' is finished"));
-  }
-  if (append.sequence != journey.next_sequence) {
-    return absl::OutOfRangeError(absl::StrCat("sequence is ", append.sequence, ": ",
-                                              journey.next_sequence, " is due in journey '",
-                                              append.journey, "'"));
-  }
-  if (journey.input != InputKind::kUnknown && append.input != InputKind::kUnknown &&
-      journey.input != append.input) {
-    return absl::FailedPreconditionError(absl::StrCat("input is ", Word(append.input),
-                                                      ": journey '", append.journey,
-                                                      "' is recorded from ", Word(journey.input)));
-  }
-  return absl::OkStatus();
-}
-
-// Landmarks must be known with that side, or come next in number; each once.
-absl::Status StepAppends::CheckLandmark(JourneyColumns& journey,
-                                        const RecordedFingerprint& recorded,
-                                        std::set<std::int32_t>& seen) {
-  const std::int32_t landmark = recorded.fingerprint.landmark;
-  const auto first_new = seen.lower_bound(journey.landmark_count);
-  const std::int64_t due = journey.landmark_count + std::distance(first_new, seen.end());
-  if (landmark < 0 || landmark > due || !seen.insert(landmark).second) {
-    return absl::InvalidArgumentError(
-        absl::StrCat("landmark is ", landmark, ": must be once in a step, and 0 to ", due));
-  }
-  if (landmark >= journey.landmark_count) return absl::OkStatus();
-  HOMING_ASSIGN_OR_RETURN(const LandmarkRow* const row, FindLandmark(journey, landmark));
-  if (row == nullptr) {
-    return absl::DataLossError(absl::StrCat("store: landmark ", landmark, " has no row"));
-  }
-  if (row->landmark.side != recorded.side) {
-    return absl::InvalidArgumentError(absl::StrCat("side of landmark ", landmark, " is ",
-                                                   Word(recorded.side), ": it was met on the ",
-                                                   Word(row->landmark.side)));
-  }
-  return absl::OkStatus();
-}
-
-absl::Status StepAppends::CheckStep(JourneyColumns& journey, const JourneyStep& step,
-                                    std::int64_t sequence) {
-  const std::int64_t last = std::min(sequence, kMostSteps - 1);
-  if (step.step < journey.step_count || step.step > last) {
-    return absl::InvalidArgumentError(
-        absl::StrCat("step is ", step.step, ": must be ", journey.step_count, " to ", last));
-  }
-  HOMING_RETURN_IF_ERROR(CheckOrder(step));
-  std::set<std::int32_t> seen;
+  if (step.fingerprints.empty() && cells[0].empty() && cells[1].empty()) return;
+  Query query = connection.Prepare(kInsert);
+  // What is not bound is NULL.
+  query.ClearValues();
+  query.Bind(1, StepId(journey_id, step.step));
+  std::array<int, 2> on_side{};
   for (const RecordedFingerprint& recorded : step.fingerprints) {
-    HOMING_RETURN_IF_ERROR(CheckValues(recorded));
-    HOMING_RETURN_IF_ERROR(CheckLandmark(journey, recorded, seen));
+    const Fingerprint& fingerprint = recorded.fingerprint;
+    const int before = ColumnOf(recorded.side, on_side[static_cast<std::size_t>(recorded.side)]++);
+    query.Bind(before + 1, fingerprint.landmark);
+    query.Bind(before + 2, double{fingerprint.x});
+    query.Bind(before + 3, double{fingerprint.y});
+    query.Bind(before + 4, fingerprint.count);
+    query.Bind(before + 5, recorded.spread);
   }
-  return absl::OkStatus();
-}
-
-void StepAppends::AddFingerprint(JourneyColumns& journey, std::int64_t step, int index,
-                                 const RecordedFingerprint& recorded) {
-  const Fingerprint& fingerprint = recorded.fingerprint;
-  InsertFingerprint(*connection_, FingerprintId(journey.id, step, index), fingerprint);
-  LandmarkRow& row = journey.landmarks[fingerprint.landmark];
-  Landmark& landmark = row.landmark;
-  if (fingerprint.landmark == journey.landmark_count) {
-    landmark.side = recorded.side;
-    landmark.first_step = step;
-    row.is_new = true;
-    ++journey.landmark_count;
-  }
-  landmark.last_step = step;
-  ++landmark.fingerprint_count;
-  // The running mean: new = old + (s - old) / n.
-  landmark.spread += (recorded.spread - landmark.spread) / landmark.fingerprint_count;
-  row.is_changed = true;
-}
-
-absl::Status StepAppends::Append(const JourneyAppend& append) {
-  HOMING_ASSIGN_OR_RETURN(JourneyColumns* const journey, Find(append.journey));
-  HOMING_RETURN_IF_ERROR(CheckContinues(*journey, append));
-  if (append.step) {
-    HOMING_RETURN_IF_ERROR(CheckStep(*journey, *append.step, append.sequence));
-    int index = 0;
-    for (const RecordedFingerprint& recorded : append.step->fingerprints) {
-      AddFingerprint(*journey, append.step->step, index++, recorded);
-    }
-    WriteProfiles(*connection_, journey->id, *append.step);
-    journey->step_count = append.step->step + 1;
-    journey->new_fingerprints += index;
-    // An observation without a step has no say: frames and the flow between them then agree.
-    if (append.capture_time_ns != 0) {
-      journey->last_time_ns = append.capture_time_ns;
-      if (journey->first_time_ns == 0) journey->first_time_ns = append.capture_time_ns;
+  for (std::size_t side = 0; side < cells.size(); ++side) {
+    if (!cells[side].empty()) {
+      query.BindBytes(kFirstProfile + static_cast<int>(side) + 1, cells[side]);
     }
   }
-  if (append.input != InputKind::kUnknown) journey->input = append.input;
-  if (append.settings) journey->new_settings = append.settings;
-  journey->next_sequence = append.sequence + 1;
-  journey->is_changed = true;
-  return absl::OkStatus();
+  query.Run();
 }
 
-void StepAppends::Write() {
-  for (const auto& [name, journey] : journeys_) {
-    if (journey.is_changed) WriteJourney(journey);
+Query SelectSteps(Connection& connection, std::int64_t journey_id, std::int64_t first) {
+  return connection.Prepare(kSelect, StepId(journey_id, first), StepId(journey_id + 1, 0));
+}
+
+absl::StatusOr<JourneyStep> ReadStep(Query& row) {
+  JourneyStep step;
+  step.step = StepOfId(row.Integer(0));
+  for (int place = 0; place < 2 * kPlacesOfSide; ++place) {
+    const int column = 1 + place * kColumnsOfPlace;
+    if (row.IsNull(column)) continue;
+    RecordedFingerprint& recorded = step.fingerprints.emplace_back();
+    recorded.side = SideOfPlace(place);
+    recorded.fingerprint = {static_cast<float>(row.Real(column + 1)),
+                            static_cast<float>(row.Real(column + 2)),
+                            static_cast<std::int32_t>(row.Integer(column + 3)),
+                            static_cast<std::int32_t>(row.Integer(column))};
+    recorded.spread = row.Real(column + 4);
   }
+  for (int side = 0; side < 2; ++side) {
+    if (row.IsNull(kFirstProfile + side)) continue;
+    HOMING_ASSIGN_OR_RETURN(step.profiles[static_cast<std::size_t>(side)],
+                            DecodeProfile(row.Bytes(kFirstProfile + side)));
+  }
+  return step;
 }
 
-void StepAppends::WriteJourney(const JourneyColumns& journey) {
-  for (const auto& [number, row] : journey.landmarks) {
-    if (row.is_new) {
-      InsertLandmark(*connection_, journey.id, number, row.landmark);
-    } else if (row.is_changed) {
-      connection_
-          ->Prepare(kUpdateLandmark, journey.id, number, row.landmark.last_step,
-                    row.landmark.fingerprint_count, row.landmark.spread)
-          .Run();
+void FindSides(Connection& connection, std::int64_t journey_id, std::int32_t landmark,
+               std::map<std::int32_t, Side>& sides) {
+  Query query =
+      connection.Prepare(kSelectLandmarksBack, StepId(journey_id, 0), StepId(journey_id + 1, 0));
+  while (!sides.contains(landmark) && query.Next()) {
+    for (int place = 0; place < 2 * kPlacesOfSide; ++place) {
+      if (!query.IsNull(place)) {
+        sides.emplace(static_cast<std::int32_t>(query.Integer(place)), SideOfPlace(place));
+      }
     }
-  }
-  connection_
-      ->Prepare(kUpdate, journey.id, journey.next_sequence, Word(journey.input),
-                journey.first_time_ns, journey.last_time_ns, journey.step_count,
-                journey.landmark_count, journey.new_fingerprints)
-      .Run();
-  if (journey.new_settings) {
-    connection_->Prepare(kSetSettings, ToJson(*journey.new_settings), journey.id).Run();
   }
 }
 

@@ -8,8 +8,8 @@
 
 #include "absl/strings/str_cat.h"
 #include "homing/landmark/profile_code.h"
-#include "storage/fingerprint_id.h"
 #include "storage/journey_store.h"
+#include "storage/step_id.h"
 #include "tests/benchmark/benchmarks.h"
 #include "tests/support/temporary_folder.h"
 
@@ -80,26 +80,17 @@ class PlainSqlite {
     Execute("PRAGMA wal_autocheckpoint=16384");
     Execute("PRAGMA cache_size=-16384");
     Execute("PRAGMA foreign_keys=ON");
-    fingerprint_ = Prepare(
-        "INSERT INTO fingerprints (fingerprint_id, landmark, x, y, count)"
-        " VALUES (?,?,?,?,?)");
-    landmark_ = Prepare(
-        "INSERT INTO landmarks (journey_id, landmark, side, first_step, last_step,"
-        " fingerprint_count, spread) VALUES (?1,?2,'LEFT',?3,?3,1,?4)");
-    seen_again_ = Prepare(
-        "UPDATE landmarks SET last_step = ?3, fingerprint_count ="
-        " fingerprint_count + 1, spread = ?4 WHERE journey_id = ?1 AND"
-        " landmark = ?2");
-    profile_ = Prepare("INSERT INTO profiles (profile_id, cells) VALUES (?,?)");
+    step_ = Prepare(
+        "INSERT INTO steps (step_id, left1_landmark, left1_x, left1_y, left1_count, left1_spread,"
+        " left2_landmark, left2_x, left2_y, left2_count, left2_spread, left_profile)"
+        " VALUES (?,?,?,?,?,?,?,?,?,?,?,?)");
     journey_ = Prepare(
         "UPDATE journeys SET next_sequence = ?2, input = 'FLOW_VECTORS',"
         " end_time_ns = ?3, step_count = ?4, landmark_count = ?5,"
         " fingerprint_count = fingerprint_count + 2 WHERE journey_id = ?1");
   }
   ~PlainSqlite() {
-    for (sqlite3_stmt* statement : {fingerprint_, landmark_, seen_again_, profile_, journey_}) {
-      sqlite3_finalize(statement);
-    }
+    for (sqlite3_stmt* statement : {step_, journey_}) sqlite3_finalize(statement);
     sqlite3_close(database_);
   }
   PlainSqlite(const PlainSqlite&) = delete;
@@ -109,26 +100,19 @@ class PlainSqlite {
     ok_ = sqlite3_exec(database_, sql, nullptr, nullptr, nullptr) == SQLITE_OK && ok_;
   }
   void Append(std::int64_t journey, const JourneyStep& step) {
-    int index = 0;
+    sqlite3_bind_int64(step_, 1, storage::StepId(journey, step.step));
+    int index = 1;
     for (const RecordedFingerprint& recorded : step.fingerprints) {
       const Fingerprint& f = recorded.fingerprint;
-      sqlite3_bind_int64(fingerprint_, 1, storage::FingerprintId(journey, step.step, index++));
-      sqlite3_bind_int64(fingerprint_, 2, f.landmark);
-      sqlite3_bind_double(fingerprint_, 3, f.x);
-      sqlite3_bind_double(fingerprint_, 4, f.y);
-      sqlite3_bind_int64(fingerprint_, 5, f.count);
-      Run(fingerprint_);
-      sqlite3_stmt* const landmark = step.step % 10 == 0 ? landmark_ : seen_again_;
-      sqlite3_bind_int64(landmark, 1, journey);
-      sqlite3_bind_int64(landmark, 2, f.landmark);
-      sqlite3_bind_int64(landmark, 3, step.step);
-      sqlite3_bind_double(landmark, 4, recorded.spread);
-      Run(landmark);
+      sqlite3_bind_int64(step_, ++index, f.landmark);
+      sqlite3_bind_double(step_, ++index, f.x);
+      sqlite3_bind_double(step_, ++index, f.y);
+      sqlite3_bind_int64(step_, ++index, f.count);
+      sqlite3_bind_double(step_, ++index, recorded.spread);
     }
     const std::string cells = EncodeProfile(*step.profiles[0]);
-    sqlite3_bind_int64(profile_, 1, storage::FingerprintId(journey, step.step, 0));
-    sqlite3_bind_blob(profile_, 2, cells.data(), static_cast<int>(cells.size()), SQLITE_STATIC);
-    Run(profile_);
+    sqlite3_bind_blob(step_, ++index, cells.data(), static_cast<int>(cells.size()), SQLITE_STATIC);
+    Run(step_);
     sqlite3_bind_int64(journey_, 1, journey);
     sqlite3_bind_int64(journey_, 2, step.step + 1);
     sqlite3_bind_int64(journey_, 3, step.step + 1);
@@ -150,10 +134,7 @@ class PlainSqlite {
   }
 
   sqlite3* database_ = nullptr;
-  sqlite3_stmt* fingerprint_ = nullptr;
-  sqlite3_stmt* landmark_ = nullptr;
-  sqlite3_stmt* seen_again_ = nullptr;
-  sqlite3_stmt* profile_ = nullptr;
+  sqlite3_stmt* step_ = nullptr;
   sqlite3_stmt* journey_ = nullptr;
   bool ok_ = true;
 };

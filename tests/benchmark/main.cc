@@ -84,26 +84,24 @@ bool CopyJourneys(const std::string& path, int journeys) {
   bool ok = sqlite3_open(path.c_str(), &database) == SQLITE_OK;
   const std::string numbers = absl::StrCat(
       "WITH RECURSIVE n(i) AS (SELECT 2 UNION ALL SELECT i + 1 FROM n WHERE i < ", journeys, ") ");
+  std::string places;
+  for (const char* place : {"left1", "left2", "right1", "right2"}) {
+    for (const char* value : {"landmark", "x", "y", "count", "spread"}) {
+      absl::StrAppend(&places, place, "_", value, ", ");
+    }
+  }
   const std::vector<std::string> statements = {
       "PRAGMA journal_mode=WAL",
       "PRAGMA synchronous=OFF",
       "BEGIN",
-      absl::StrCat(
-          "INSERT INTO journeys (journey_id, name, state, writer_id, readers, input, ",
-          "next_sequence, create_time_ns, start_time_ns, end_time_ns, step_count, ",
-          "landmark_count, fingerprint_count, settings) ", numbers,
-          "SELECT i, 'robots/r' || i || '/journeys/copy', state, writer_id, readers, ",
-          "input, next_sequence, create_time_ns, start_time_ns, end_time_ns, step_count, ",
-          "landmark_count, fingerprint_count, settings FROM journeys, n WHERE journey_id = 1"),
-      absl::StrCat("INSERT INTO landmarks ", numbers,
-                   "SELECT i, landmark, side, first_step, last_step, fingerprint_count, spread ",
-                   "FROM n, landmarks WHERE journey_id = 1"),
-      absl::StrCat("INSERT INTO fingerprints (fingerprint_id, landmark, x, y, count) ", numbers,
-                   "SELECT fingerprint_id + ((i - 1) << 27), landmark, x, y, count ",
-                   "FROM n, fingerprints WHERE fingerprint_id >> 27 = 1"),
-      absl::StrCat("INSERT INTO profiles (profile_id, cells) ", numbers,
-                   "SELECT profile_id + ((i - 1) << 27), cells ",
-                   "FROM n, profiles WHERE profile_id >> 27 = 1"),
+      absl::StrCat("INSERT INTO journeys ", numbers,
+                   "SELECT i, 'robots/r' || i || '/journeys/copy', state, writer_id, readers, ",
+                   "input, next_sequence, create_time_ns, start_time_ns, end_time_ns, step_count, ",
+                   "landmark_count, fingerprint_count FROM journeys, n WHERE journey_id = 1"),
+      absl::StrCat("INSERT INTO journey_settings ", numbers,
+                   "SELECT i, settings FROM journey_settings, n WHERE journey_id = 1"),
+      absl::StrCat("INSERT INTO steps ", numbers, "SELECT step_id + ((i - 1) << 25), ", places,
+                   "left_profile, right_profile FROM n, steps WHERE journey_id = 1"),
       "COMMIT"};
   for (const std::string& sql : statements) {
     char* message = nullptr;

@@ -77,20 +77,26 @@ TEST_F(DamageTest, ATruncatedFileIsDataLoss) {
 TEST_F(DamageTest, RowsThatContradictEachOtherAreDataLoss) {
   MakeFile(30);
   const std::vector<std::string> changes = {
-      "DELETE FROM fingerprints WHERE step = 7",
-      "DELETE FROM landmarks WHERE landmark = 1",
-      "UPDATE landmarks SET side = 'LEFT'",
-      "UPDATE landmarks SET first_step = first_step + 1 WHERE landmark = 2",
-      "UPDATE landmarks SET spread = -1 WHERE landmark = 0",
-      "UPDATE fingerprints SET landmark = 5000 WHERE step = 3",
-      "UPDATE fingerprints SET count = 0 WHERE step = 3",
-      "UPDATE fingerprints SET x = 1e300 WHERE step = 3",
+      "DELETE FROM steps WHERE step = 7",
+      "UPDATE steps SET left1_landmark = NULL WHERE step = 7",
+      "UPDATE steps SET left1_landmark = right1_landmark WHERE step = 3",
+      "UPDATE steps SET left1_landmark = 2, right1_landmark = 0 WHERE step = 0",
+      "UPDATE steps SET step_id = step_id + 100 WHERE step = 29",
+      "UPDATE steps SET left1_spread = -1 WHERE step = 3",
+      "UPDATE steps SET left1_landmark = 5000 WHERE step = 3",
+      "UPDATE steps SET left1_landmark = -1 WHERE step = 3",
+      "UPDATE steps SET right1_count = 0 WHERE step = 3",
+      "UPDATE steps SET right1_x = 1e300 WHERE step = 3",
+      "UPDATE steps SET left_profile = x'010203' WHERE step = 3",
       "UPDATE journeys SET step_count = 5",
       "UPDATE journeys SET step_count = -1",
       "UPDATE journeys SET step_count = 1000000000000",
       "UPDATE journeys SET fingerprint_count = 5",
-      "UPDATE journeys SET settings = '{}'",
-      "UPDATE journeys SET settings = 'nonsense'",
+      "UPDATE journeys SET landmark_count = 5",
+      "UPDATE journeys SET landmark_count = 5000",
+      "DELETE FROM journey_settings",
+      "UPDATE journey_settings SET settings = '{}'",
+      "UPDATE journey_settings SET settings = 'nonsense'",
       "UPDATE journeys SET readers = '[1]'"};
   const std::string original = path_ + ".original";
   std::filesystem::copy_file(path_, original);
@@ -108,7 +114,7 @@ TEST_F(DamageTest, ATailThatContradictsItselfIsDataLoss) {
   const std::string original = path_ + ".original";
   std::filesystem::copy_file(path_, original);
   for (const std::string change :
-       {"DELETE FROM landmarks", "UPDATE fingerprints SET landmark = 5000",
+       {"UPDATE steps SET left1_landmark = 5000", "UPDATE steps SET right_profile = x'010203'",
         "UPDATE journeys SET step_count = 29", "UPDATE journeys SET step_count = -1",
         "UPDATE journeys SET step_count = 1000000000000"}) {
     std::filesystem::copy_file(original, path_, std::filesystem::copy_options::overwrite_existing);

@@ -104,7 +104,7 @@ TEST_F(DoctorTest, OneDamagedJourneyDoesNotTakeTheOthersAlong) {
   {
     auto connection = Connection::Open(path_, Connection::Access::kReadWrite, 100);
     ASSERT_THAT((*connection)->Run([&] {
-      (*connection)->Execute("DELETE FROM fingerprints WHERE journey_id = 3 AND step = 7");
+      (*connection)->Execute("DELETE FROM steps WHERE journey_id = 3 AND step = 7");
       return absl::OkStatus();
     }),
                 IsOk());

@@ -7,6 +7,8 @@
 #include <fstream>
 #include <sstream>
 
+#include "absl/strings/escaping.h"
+#include "homing/landmark/profile_code.h"
 #include "tests/storage/store_fixture.h"
 #include "tests/support/status_matchers.h"
 
@@ -69,11 +71,34 @@ TEST_P(OldSchema, OpensWithAllItsJourneysAndTakesMore) {
 INSTANTIATE_TEST_SUITE_P(Versions, OldSchema,
                          ::testing::Range(1, static_cast<int>(kSchemaVersion) + 1));
 
+// Of steps with and without fingerprints.
+TEST(Schema, FlowProfilesOfAnOlderVersionStay) {
+  const TemporaryFolder folder;
+  const std::string path = folder.File("homing.db");
+  std::vector<JourneyStep> steps = MakeSteps(12);
+  steps.emplace_back().step = 12;
+  steps = WithProfiles(steps);
+  Execute(path, ReadText(HOMING_SCHEMA_DIR "/v2.sql"));
+  for (const JourneyStep& step : steps) {
+    for (int side = 0; side < 2; ++side) {
+      const auto& profile = step.profiles[static_cast<std::size_t>(side)];
+      if (!profile) continue;
+      const std::string id = std::to_string((1 << 27) + step.step * 4 + side);
+      Execute(path, "INSERT INTO profiles VALUES (" + id + ", x'" +
+                        absl::BytesToHexString(EncodeProfile(*profile)) + "')");
+    }
+  }
+  Execute(path, "UPDATE journeys SET step_count = 13");
+  const auto map = OpenOrDie(folder.Database())->LoadMap("robots/old/journeys/1");
+  ASSERT_THAT(map, IsOk());
+  EXPECT_TRUE(SameMap(*map, MapOf(OddSettings(), steps)));
+}
+
 TEST(Schema, ANewFileHasTheVersionAndTheMarkOfThisProgram) {
   const TemporaryFolder folder;
   OpenOrDie(folder.Database());
   const std::string path = folder.File("homing.db");
-  EXPECT_EQ(Ask(path, "PRAGMA user_version"), "2");
+  EXPECT_EQ(Ask(path, "PRAGMA user_version"), "3");
   EXPECT_EQ(Ask(path, "PRAGMA application_id"), std::to_string(0x484F4D49));
   EXPECT_EQ(Ask(path, "PRAGMA journal_mode"), "wal");
 }
@@ -82,12 +107,12 @@ TEST(Schema, ANewerVersionIsRefusedAndLeftAsItIs) {
   const TemporaryFolder folder;
   const std::string path = folder.File("homing.db");
   OpenOrDie(folder.Database());
-  Execute(path, "PRAGMA user_version=3");
+  Execute(path, "PRAGMA user_version=4");
   StoreOptions options;
   options.url = folder.Database();
   EXPECT_THAT(OpenJourneyStore(options), StatusIs(absl::StatusCode::kFailedPrecondition,
-                                                  HasSubstr("version is 3, newer than")));
-  EXPECT_EQ(Ask(path, "PRAGMA user_version"), "3");
+                                                  HasSubstr("version is 4, newer than")));
+  EXPECT_EQ(Ask(path, "PRAGMA user_version"), "4");
 }
 
 TEST(Schema, AnotherProgramsFileIsRefusedAndLeftAsItIs) {
@@ -112,10 +137,20 @@ TEST(Schema, PlainSqlReadsTheJourneysByName) {
   }
   EXPECT_EQ(Ask(path, "SELECT count(*) FROM journey_fingerprints WHERE journey='b' AND step=11"),
             "4");
-  EXPECT_EQ(Ask(path, "SELECT count(*) FROM fingerprints WHERE journey_id=2 AND step=11"), "4");
+  EXPECT_EQ(Ask(path, "SELECT count(*) FROM steps WHERE journey_id=2 AND step=11"), "1");
   EXPECT_EQ(Ask(path, "SELECT count(*) FROM journey_landmarks WHERE journey='a'"),
             std::to_string(store->GetJourney("a")->landmark_count));
-  EXPECT_EQ(Ask(path, "SELECT settings ->> '$.flow.cell_px' FROM journeys WHERE name='a'"), "9");
+  EXPECT_EQ(Ask(path,
+                "SELECT max(first_step) || ' ' || max(last_step) || ' ' || sum(fingerprint_count)"
+                " FROM journey_landmarks WHERE journey='a'"),
+            Ask(path,
+                "SELECT (SELECT first_step FROM journey_landmarks WHERE journey='b'"
+                " ORDER BY landmark DESC) || ' 11 ' || fingerprint_count FROM journeys"
+                " WHERE name='b'"));
+  EXPECT_EQ(Ask(path,
+                "SELECT settings ->> '$.flow.cell_px' FROM journeys"
+                " JOIN journey_settings USING (journey_id) WHERE name='a'"),
+            "9");
 }
 
 }  // namespace

@@ -1,0 +1,103 @@
+#include "storage/checkpointer.h"
+
+#include <sqlite3.h>
+
+#include <utility>
+
+#include "homing/status_macros.h"
+
+namespace homing::storage {
+namespace {
+
+// Pages of the log when it is due: 48 of the 64 MiB that it may keep. A page that changes again and
+// again is then moved once.
+constexpr int kDuePages = 12288;
+// After one that did not empty the log (a reader needs it, the disk is full).
+constexpr int kPagesToNextTry = 1024;
+// So few are moved while the writer waits: a few milliseconds.
+constexpr int kFewPages = 512;
+constexpr int kMostRounds = 5;
+
+}  // namespace
+
+absl::StatusOr<std::unique_ptr<Checkpointer>> Checkpointer::Start(const std::string& path,
+                                                                  Connection* writer,
+                                                                  std::mutex* write_mutex,
+                                                                  int busy_timeout_ms) {
+  HOMING_ASSIGN_OR_RETURN(auto connection,
+                          Connection::Open(path, Connection::Access::kReadWrite, busy_timeout_ms));
+  HOMING_RETURN_IF_ERROR(connection->Run([&] {
+    // The log is on disk before the file changes, and the file before the log begins anew.
+    connection->Execute("PRAGMA synchronous=FULL");
+    return absl::OkStatus();
+  }));
+  return std::unique_ptr<Checkpointer>(
+      new Checkpointer(std::move(connection), writer, write_mutex));
+}
+
+Checkpointer::Checkpointer(std::unique_ptr<Connection> connection, Connection* writer,
+                           std::mutex* write_mutex)
+    : connection_(std::move(connection)),
+      writer_(writer),
+      write_mutex_(write_mutex),
+      next_at_(kDuePages),
+      thread_([this] { Run(); }) {
+  sqlite3_wal_hook(
+      writer_->database().getHandle(),
+      [](void* self, sqlite3*, const char*, int pages) {
+        static_cast<Checkpointer*>(self)->NoteLog(pages);
+        return SQLITE_OK;
+      },
+      this);
+}
+
+Checkpointer::~Checkpointer() {
+  sqlite3_wal_hook(writer_->database().getHandle(), nullptr, nullptr);
+  {
+    const std::lock_guard lock(mutex_);
+    stopping_ = true;
+  }
+  changed_.notify_one();
+  thread_.join();
+}
+
+void Checkpointer::NoteLog(int pages) {
+  if (pages < kDuePages) next_at_ = kDuePages;
+  if (pages < next_at_) return;
+  next_at_ = pages + kPagesToNextTry;
+  {
+    const std::lock_guard lock(mutex_);
+    due_ = true;
+  }
+  changed_.notify_one();
+}
+
+void Checkpointer::Run() {
+  std::unique_lock lock(mutex_);
+  while (true) {
+    changed_.wait(lock, [this] { return stopping_ || due_; });
+    if (stopping_) return;
+    due_ = false;
+    lock.unlock();
+    MoveAll();
+    lock.lock();
+  }
+}
+
+void Checkpointer::MoveAll() {
+  int left = kFewPages + 1;
+  for (int round = 0; round < kMostRounds && left > kFewPages; ++round) left = Move();
+  if (left < 0) return;
+  const std::lock_guard lock(*write_mutex_);
+  Move();
+}
+
+int Checkpointer::Move() {
+  int in_log = 0;
+  int moved = 0;
+  const int code = sqlite3_wal_checkpoint_v2(connection_->database().getHandle(), nullptr,
+                                             SQLITE_CHECKPOINT_PASSIVE, &in_log, &moved);
+  return code == SQLITE_OK ? in_log - moved : -1;
+}
+
+}  // namespace homing::storage

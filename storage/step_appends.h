@@ -1,0 +1,74 @@
+// Appending steps to `journeys` and `steps`. Used in the body of a transaction;
+// throws SQLite::Exception, which ends the transaction. Source: own design.
+#ifndef STORAGE_STEP_APPENDS_H_
+#define STORAGE_STEP_APPENDS_H_
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "absl/status/status.h"
+#include "absl/status/statusor.h"
+#include "storage/connection.h"
+#include "storage/journey_store.h"
+
+namespace homing::storage {
+
+// Appends of one transaction after another. What each changes again and again, a journey's row, is
+// read once, written once a transaction and kept for the next.
+class StepAppends {
+ public:
+  explicit StepAppends(Connection* connection) : connection_(connection) {}
+
+  // At the beginning of a transaction.
+  void Begin();
+  // Checks all first; after an error nothing of this append is written. NOT_FOUND,
+  // FAILED_PRECONDITION (finished, other input), OUT_OF_RANGE (sequence not next), INVALID_ARGUMENT
+  // (a step that does not continue the journey).
+  absl::Status Append(const JourneyAppend& append);
+  // The rows that were held back. Once in a transaction, after the last append.
+  void Write();
+  // What is kept may not be what is stored: a transaction failed, or another than this wrote.
+  void Forget();
+
+ private:
+  // A row of `journeys`, as far as appending needs it.
+  struct JourneyColumns {
+    std::int64_t id = 0;
+    JourneyState state = JourneyState::kActive;
+    InputKind input = InputKind::kUnknown;
+    std::int64_t next_sequence = 0;
+    std::int64_t step_count = 0;
+    std::int32_t landmark_count = 0;
+    // Of the landmarks of the last step, and of others.
+    std::map<std::int32_t, Side> sides;
+    // Since the transaction began, as all below: times are 0 if none.
+    std::int64_t first_time_ns = 0;
+    std::int64_t last_time_ns = 0;
+    std::int64_t new_fingerprints = 0;
+    std::optional<JourneySettings> new_settings;
+    bool is_changed = false;
+  };
+
+  absl::StatusOr<JourneyColumns*> Find(const std::string& name);
+  // DATA_LOSS: it is in no step.
+  absl::StatusOr<Side> SideOf(JourneyColumns& journey, std::int32_t landmark);
+  absl::Status CheckLandmark(JourneyColumns& journey, const RecordedFingerprint& recorded,
+                             std::set<std::int32_t>& seen);
+  absl::Status CheckStep(JourneyColumns& journey, const JourneyStep& step, std::int64_t sequence);
+  static absl::Status CheckContinues(const JourneyColumns& journey, const JourneyAppend& append);
+  void AddStep(JourneyColumns& journey, const JourneyAppend& append);
+  void WriteJourney(JourneyColumns& journey);
+
+  Connection* const connection_;
+  std::unordered_map<std::string, JourneyColumns> journeys_;
+  std::vector<JourneyColumns*> changed_;
+};
+
+}  // namespace homing::storage
+
+#endif  // STORAGE_STEP_APPENDS_H_
