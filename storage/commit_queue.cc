@@ -30,6 +30,9 @@ struct CommitQueue::State {
   bool stopping = false;
   // Appends in the last transaction.
   std::size_t last_batch = 0;
+  // The next transaction begins at a time, or when full_batch appends are there: one more does not
+  // matter.
+  bool gathering = false;
   // Whose transactions have ended.
   std::deque<Committed> committed;
   std::condition_variable ended;
@@ -49,8 +52,10 @@ bool CommitQueue::State::TakeBatch(std::vector<JourneyAppend>& batch, std::vecto
   std::unique_lock lock(mutex);
   changed.wait(lock, [this] { return stopping || !appends.empty(); });
   if (last_batch >= options.busy_batch) {
+    gathering = true;
     changed.wait_for(lock, options.gather_time,
                      [this] { return stopping || appends.size() >= options.full_batch; });
+    gathering = false;
   }
   const std::size_t limit = static_cast<std::size_t>(std::max(1, options.max_batch));
   const auto size = static_cast<std::ptrdiff_t>(std::min(appends.size(), limit));
@@ -118,6 +123,7 @@ std::size_t CommitQueue::waiting() const {
 }
 
 absl::Status CommitQueue::Submit(JourneyAppend append, Done done) {
+  bool begins = false;
   {
     std::lock_guard lock(state_->mutex);
     if (state_->appends.size() >= static_cast<std::size_t>(state_->options.max_pending)) {
@@ -126,8 +132,9 @@ absl::Status CommitQueue::Submit(JourneyAppend append, Done done) {
     }
     state_->appends.push_back(std::move(append));
     state_->callbacks.push_back(std::move(done));
+    begins = !state_->gathering || state_->appends.size() >= state_->options.full_batch;
   }
-  state_->changed.notify_one();
+  if (begins) state_->changed.notify_one();
   return absl::OkStatus();
 }
 
