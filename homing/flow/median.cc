@@ -1,8 +1,10 @@
 #include "homing/flow/median.h"
 
+#include <algorithm>
 #include <bit>
 #include <cstdint>
 #include <limits>
+#include <numeric>
 #include <vector>
 
 #include "homing/vector_clones.h"
@@ -28,6 +30,52 @@ std::int32_t CountUpTo(const std::int32_t* keys, std::size_t size, std::int32_t 
   return count;
 }
 
+HOMING_VECTOR_CLONES
+void FindBounds(const std::int32_t* keys, std::size_t size, std::int32_t* least,
+                std::int32_t* most) {
+  std::int32_t low = std::numeric_limits<std::int32_t>::max();
+  std::int32_t high = std::numeric_limits<std::int32_t>::min();
+  for (std::size_t i = 0; i < size; ++i) {
+    low = std::min(low, keys[i]);
+    high = std::max(high, keys[i]);
+  }
+  *least = low;
+  *most = high;
+}
+
+// REQUIRES: one is.
+HOMING_VECTOR_CLONES
+std::int32_t GreatestUpTo(const std::int32_t* keys, std::size_t size, std::int32_t most) {
+  constexpr std::int32_t kLeast = std::numeric_limits<std::int32_t>::min();
+  std::int32_t greatest = kLeast;
+  for (std::size_t i = 0; i < size; ++i) {
+    greatest = std::max(greatest, keys[i] <= most ? keys[i] : kLeast);
+  }
+  return greatest;
+}
+
+// Of the keys the least that has more than half of them at or under it, by bisection: until one
+// side of the middle has just those.
+std::int32_t MedianOf(const std::vector<std::int32_t>& keys) {
+  const auto half = static_cast<std::int32_t>(keys.size() / 2);
+  std::int32_t low = 0;
+  std::int32_t high = 0;
+  FindBounds(keys.data(), keys.size(), &low, &high);
+  while (low < high) {
+    const std::int32_t middle = std::midpoint(low, high);
+    const std::int32_t count = CountUpTo(keys.data(), keys.size(), middle);
+    if (count == half + 1) {
+      return GreatestUpTo(keys.data(), keys.size(), middle);
+    }
+    if (count > half) {
+      high = middle;
+    } else {
+      low = middle + 1;
+    }
+  }
+  return low;
+}
+
 }  // namespace
 
 float Median(std::span<const float> values) {
@@ -36,19 +84,7 @@ float Median(std::span<const float> values) {
   }
   std::vector<std::int32_t> keys(values.size());
   RankKeys(values.data(), values.size(), keys.data());
-  // Of the keys the least that has more than half of them at or under it, by bisection.
-  const auto half = static_cast<std::int32_t>(values.size() / 2);
-  std::int64_t low = std::numeric_limits<std::int32_t>::min();
-  std::int64_t high = std::numeric_limits<std::int32_t>::max();
-  while (low < high) {
-    const auto middle = static_cast<std::int32_t>((low + high) >> 1);
-    if (CountUpTo(keys.data(), keys.size(), middle) > half) {
-      high = middle;
-    } else {
-      low = std::int64_t{middle} + 1;
-    }
-  }
-  const auto key = static_cast<std::int32_t>(low);
+  const std::int32_t key = MedianOf(keys);
   return std::bit_cast<float>(key ^ ((key >> 31) & std::numeric_limits<std::int32_t>::max()));
 }
 

@@ -74,7 +74,7 @@ absl::Status CheckCameraSize(const cv::Size& size, const Camera& camera) {
 }  // namespace
 
 ObservationFlow::ObservationFlow(const FlowOptions& options, const DecodeLimits& limits)
-    : limits_(limits), trackers_{FlowTracker(options), FlowTracker(options)} {}
+    : options_(options), limits_(limits) {}
 
 absl::StatusOr<ObservationFlow::CheckedView> ObservationFlow::Check(const CameraView& view,
                                                                     std::size_t side) const {
@@ -135,9 +135,9 @@ absl::StatusOr<std::optional<FlowField>> ObservationFlow::Take(const CameraView&
   if (checked.size.area() != 0) {
     sizes_[side] = checked.size;
   }
-  FlowTracker& tracker = trackers_[side];
-  if (break_before || checked.gray.empty()) {
-    tracker.Reset();
+  std::optional<FlowTracker>& tracker = trackers_[side];
+  if (tracker && (break_before || checked.gray.empty())) {
+    tracker->Reset();
   }
   if (const auto* field = std::get_if<FlowField>(&view)) {
     // The flow between the frame before a break and the one after it is none.
@@ -146,7 +146,10 @@ absl::StatusOr<std::optional<FlowField>> ObservationFlow::Take(const CameraView&
   if (checked.gray.empty()) {
     return std::nullopt;
   }
-  return tracker.Track(checked.gray);
+  if (!tracker) {
+    tracker.emplace(options_);
+  }
+  return tracker->Track(checked.gray);
 }
 
 }  // namespace homing

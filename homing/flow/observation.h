@@ -71,8 +71,10 @@ class ObservationFlow {
   absl::StatusOr<std::optional<FlowField>> Take(const CameraView& view, const CheckedView& checked,
                                                 std::size_t side, bool break_before);
 
+  FlowOptions options_;
   DecodeLimits limits_;
-  std::array<FlowTracker, 2> trackers_;
+  // Made for a camera's first frame: many robots send flow vectors alone.
+  std::array<std::optional<FlowTracker>, 2> trackers_;
   // Of the cameras' images so far; 0 x 0: none yet.
   std::array<cv::Size, 2> sizes_;
 };

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
 #include <vector>
 
@@ -199,18 +200,21 @@ void FitVertical(const System& system, const std::vector<double>& weights, Rotat
   fit.vertical_pan_error = std::sqrt(left_over / sum * inverse(0, 0));
 }
 
-std::size_t CountExplained(const System& system, const Fit& fit) {
-  const auto [pan, tilt, roll] = std::array{fit.rotation[0], fit.rotation[1], fit.rotation[2]};
+HOMING_VECTOR_CLONES
+std::size_t CountExplained(const System& system, const Rotation& rotation, const float* squares) {
+  const double pan = rotation[0], tilt = rotation[1], roll = rotation[2];
+  const double* const xs = system.x.data();
+  const double* const ys = system.y.data();
   const double noise = kNoisePx / system.focal;
-  std::size_t explained = 0;
+  std::int64_t explained = 0;
   for (std::size_t i = 0; i < system.size; ++i) {
-    const double x = system.x[i], y = system.y[i];
+    const double x = xs[i], y = ys[i];
     const double u = pan * (1 + x * x) + tilt * x * y + roll * y;
     const double v = pan * x * y + tilt * (1 + y * y) - roll * x;
     const double near = std::max(noise * noise, kNoiseShare * kNoiseShare * (u * u + v * v));
-    explained += fit.squares[i] <= near ? 1U : 0U;
+    explained += squares[i] <= near ? 1 : 0;
   }
-  return explained;
+  return static_cast<std::size_t>(explained);
 }
 
 }  // namespace
@@ -220,7 +224,7 @@ RotationFit FitRotation(const FlowField& field, const Camera& camera) {
   const Fit solved = SolveRobustly(system);
   RotationFit fit;
   fit.pan = solved.rotation[0];
-  const std::size_t explained = CountExplained(system, solved);
+  const std::size_t explained = CountExplained(system, solved.rotation, solved.squares.data());
   fit.explained = static_cast<double>(explained) / static_cast<double>(system.size);
   if (2 * explained >= system.size) {
     FitVertical(system, solved.weights, fit);

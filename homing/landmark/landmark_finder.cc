@@ -2,14 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 namespace homing {
 namespace {
 
 bool IsUsable(const FlowVector& v, const LandmarkOptions& options) {
-  return std::isfinite(v.start_x) && std::isfinite(v.start_y) && std::isfinite(v.end_x) &&
-         std::isfinite(v.end_y) && v.Length() >= options.min_vector_length_px;
+  // Of ends that are not all finite the length is not.
+  const double length = v.Length();
+  return length >= options.min_vector_length_px && length <= std::numeric_limits<double>::max();
 }
 
 // Bin of a midpoint; those off the image fall in the outermost bins.
@@ -30,13 +32,21 @@ std::vector<double> Smoothed(const std::vector<int>& histogram) {
   return result;
 }
 
-// How far the bin lies under the lower of the peaks on its two sides; 0 if it is no valley.
-double DepthAt(const std::vector<double>& histogram, std::size_t bin, double max_ratio) {
-  const auto middle = histogram.begin() + static_cast<std::ptrdiff_t>(bin);
-  const double left = *std::max_element(histogram.begin(), middle);
-  const double right = *std::max_element(middle + 1, histogram.end());
-  const double lower_peak = std::min(left, right);
-  return *middle <= max_ratio * lower_peak ? lower_peak - *middle : 0;
+// How far each bin lies under the lower of the peaks on its two sides; 0 where it is no valley.
+std::vector<double> Depths(const std::vector<double>& histogram, double max_ratio) {
+  std::vector<double> depths(histogram.size());
+  double right = 0;
+  for (std::size_t bin = histogram.size(); bin-- > 0;) {
+    depths[bin] = right;
+    right = std::max(right, histogram[bin]);
+  }
+  double left = 0;
+  for (std::size_t bin = 0; bin < histogram.size(); ++bin) {
+    const double lower_peak = std::min(left, depths[bin]);
+    left = std::max(left, histogram[bin]);
+    depths[bin] = histogram[bin] <= max_ratio * lower_peak ? lower_peak - histogram[bin] : 0;
+  }
+  return depths;
 }
 
 // Both sides of the bin are landmarks by themselves.
@@ -53,12 +63,12 @@ bool SidesAreLarge(const std::vector<int>& histogram, std::size_t bin,
 // Middle of the lowest bin between the two peaks (Fig. 4), of a gap of equal bins the gap's middle.
 std::optional<double> ValleyOf(const std::vector<int>& histogram, int width,
                                const LandmarkOptions& options) {
-  const std::vector<double> smooth = Smoothed(histogram);
+  const std::vector<double> depths = Depths(Smoothed(histogram), options.max_valley_ratio);
   double deepest = 0;
   std::size_t first = 0;
   std::size_t last = 0;
   for (std::size_t bin = 1; bin + 1 < histogram.size(); ++bin) {
-    const double depth = DepthAt(smooth, bin, options.max_valley_ratio);
+    const double depth = depths[bin];
     if (depth <= 0 || depth < deepest || !SidesAreLarge(histogram, bin, options)) {
       continue;
     }

@@ -2,8 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <random>
+#include <vector>
 
 namespace homing {
 namespace {
@@ -74,6 +78,49 @@ TEST(FlowProfileTest, MagnificationMovesMidpointsFromTheMiddle) {
   int filled = 0;
   for (const auto cell : twice.cells) filled += cell != 0 ? 1 : 0;
   EXPECT_EQ(filled, 1);
+}
+
+double MiddleOf(std::vector<double> lengths) {
+  std::ranges::sort(lengths);
+  return lengths[lengths.size() / 2];
+}
+
+// Parallax by sorting the lengths of each cell.
+TEST(FlowProfileTest, ParallaxIsWhatSortingGivesHoweverTheLengthsLie) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<float> x(0, 239);
+  std::uniform_real_distribution<float> y(0, 159);
+  std::lognormal_distribution<float> spread(1, 1);
+  std::uniform_int_distribution<int> few(1, 3);
+  std::uniform_int_distribution<int> size(1, 700);
+  for (int trial = 0; trial < 300; ++trial) {
+    std::vector<FlowVector> vectors;
+    for (int i = size(random); i > 0; --i) {
+      // Spread out; a few equal ones; nearly equal, and one that is far longer.
+      const float length = trial % 3 == 0   ? spread(random)
+                           : trial % 3 == 1 ? static_cast<float>(few(random))
+                                            : (i == 1 ? 1e5F : 2 + 1e-6F * spread(random));
+      vectors.push_back(VectorAt(x(random), y(random), length));
+    }
+    std::vector<double> all;
+    std::map<int, std::vector<double>> cells;
+    for (const FlowVector& v : vectors) {
+      // The middle of the image is half a pixel off.
+      const double across = (v.MidX() + 0.5) / 240;
+      const double down = (v.MidY() + 0.5) / 160;
+      all.push_back(v.Length());
+      cells[CellAt(static_cast<int>(across * FlowProfile::kColumns),
+                   static_cast<int>(down * FlowProfile::kRows))]
+          .push_back(v.Length());
+    }
+    const FlowProfile profile = MakeFlowProfile(FieldOf(vectors));
+    for (const auto& [cell, lengths] : cells) {
+      const double octaves = std::log2(MiddleOf(lengths) / MiddleOf(all));
+      const long code =
+          FlowProfile::kMedianParallax + std::lround(FlowProfile::kParallaxPerOctave * octaves);
+      EXPECT_EQ(profile.parallax(cell), std::clamp<long>(code, 1, 15)) << trial << ", " << cell;
+    }
+  }
 }
 
 }  // namespace
