@@ -169,14 +169,14 @@ class BidiStream : public grpc::ServerBidiReactor<Request, Response>,
  private:
   // Enough that a commit's time is shared by many observations; of frames, bytes come first.
   static constexpr std::size_t kReadAhead = 256;
-  static constexpr std::size_t kReadAheadBytes = 4 << 20;
+  static constexpr std::size_t kReadAheadBytes = 1 << 20;
   // Of all streams together: fewer than may wait for their commit, so that a server with too much
   // to do slows its clients down and refuses nothing.
   static constexpr std::size_t kReadAheadOfAll = 24576;
   // What is handled on the thread that read it: small messages of a stream whose last took no
   // longer. To wake another thread costs as much as to handle many a message.
   static constexpr std::size_t kHereBytes = 65536;
-  static constexpr std::chrono::microseconds kQuick{100};
+  static constexpr std::chrono::microseconds kQuick{250};
 
   void HandleGuarded(const Request& request) {
     {

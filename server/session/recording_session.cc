@@ -1,6 +1,7 @@
 #include "server/session/recording_session.h"
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 #include "absl/strings/str_cat.h"
@@ -19,6 +20,12 @@ absl::Status GapError(std::int64_t sequence, std::int64_t due) {
   return WithReason(absl::OutOfRangeError(
                         absl::StrCat("observation.sequence is ", sequence, "; ", due, " is due")),
                     {"SEQUENCE_GAP", {{"due", absl::StrCat(due)}}});
+}
+
+// All of the settings that an observation may change.
+std::array<int, 4> ImageSizes(const JourneySettings& settings) {
+  const auto& [left, right] = settings.cameras;
+  return {left.width, left.height, right.width, right.height};
 }
 
 }  // namespace
@@ -82,7 +89,7 @@ absl::Status RecordingSession::Process(const Observation& observation, TimePoint
     return absl::OkStatus();
   }
   HOMING_RETURN_IF_ERROR(CheckKind(observation));
-  const JourneySettings before = recorder_->settings();
+  const auto sizes = ImageSizes(recorder_->settings());
   auto step = recorder_->Record(observation);
   if (!step.ok()) {
     return Within(absl::StrCat("observation[", sequence, "]"), step.status());
@@ -95,7 +102,7 @@ absl::Status RecordingSession::Process(const Observation& observation, TimePoint
   next_ = sequence + 1;
   storage::JourneyAppend append{claim_.journey->name(),      sequence,         kind_,
                                 observation.capture_time_ns, *std::move(step), std::nullopt};
-  if (recorder_->settings() != before) {
+  if (ImageSizes(recorder_->settings()) != sizes) {
     append.settings = recorder_->settings();
   }
   return Commit(std::move(append), slot);
