@@ -114,8 +114,9 @@ TEST(FlowProfileTest, ParallaxIsWhatSortingGivesHoweverTheLengthsLie) {
           .push_back(v.Length());
     }
     const FlowProfile profile = MakeFlowProfile(FieldOf(vectors));
+    const double middle = MiddleOf(all);
     for (const auto& [cell, lengths] : cells) {
-      const double octaves = std::log2(MiddleOf(lengths) / MiddleOf(all));
+      const double octaves = std::log2(MiddleOf(lengths) / middle);
       const long code =
           FlowProfile::kMedianParallax + std::lround(FlowProfile::kParallaxPerOctave * octaves);
       EXPECT_EQ(profile.parallax(cell), std::clamp<long>(code, 1, 15)) << trial << ", " << cell;
