@@ -23,6 +23,7 @@ room=$(df -k --output=avail /dev/shm 2>/dev/null | tail -n 1)
 [ -n "${TMPDIR:-}" ] || [ "${room:-0}" -lt 2000000 ] || export TMPDIR=/dev/shm
 log=build/$preset-test.log
 status=0
-ctest --preset "$preset" -j "$jobs" --output-on-failure --no-tests=error -O "$log" "$@" </dev/null || status=$?
+# Many tests wait for another process or for a time.
+ctest --preset "$preset" -j "$((jobs + (jobs + 1) / 2))" --output-on-failure --no-tests=error -O "$log" "$@" </dev/null || status=$?
 grep 'tests passed,' "$log" | tail -n 1
 exit "$status"
