@@ -56,6 +56,7 @@ struct TcpProxy::Link {
   std::atomic<bool> cut = false;
   std::atomic<bool> frozen = false;
   std::atomic<bool> over = false;
+  std::thread carrier;
 };
 
 TcpProxy::TcpProxy(const std::string& upstream) {
@@ -73,7 +74,7 @@ TcpProxy::TcpProxy(const std::string& upstream) {
 TcpProxy::~TcpProxy() {
   stopping_ = true;
   acceptor_.join();
-  for (std::thread& carrier : carriers_) carrier.join();
+  for (const auto& link : links_) link->carrier.join();
   ::close(listener_);
 }
 
@@ -112,9 +113,14 @@ void TcpProxy::Accept() {
     link->left = cut_after_;
     ++connections_;
     const std::lock_guard lock(mutex_);
-    std::erase_if(links_, [](const auto& old) { return old->over.load(); });
+    // A thread that has ended and is not joined keeps its stack.
+    std::erase_if(links_, [](const auto& old) {
+      if (!old->over) return false;
+      old->carrier.join();
+      return true;
+    });
     links_.push_back(link);
-    carriers_.emplace_back([this, link] { Carry(link); });
+    link->carrier = std::thread([this, link] { Carry(link); });
   }
 }
 

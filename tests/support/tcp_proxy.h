@@ -56,7 +56,6 @@ class TcpProxy {
   std::atomic<bool> stopping_ = false;
   std::mutex mutex_;
   std::vector<std::shared_ptr<Link>> links_;
-  std::vector<std::thread> carriers_;
   std::thread acceptor_;
 };
 
