@@ -2,6 +2,7 @@
 
 #include <array>
 #include <string>
+#include <utility>
 
 #include "homing/landmark/profile_code.h"
 #include "homing/status_macros.h"
@@ -32,9 +33,13 @@ constexpr int kFirstProfile = 1 + 2 * kPlacesOfSide * kColumnsOfPlace;
 
 Side SideOfPlace(int place) { return Side{place / kPlacesOfSide}; }
 
-// Of the `nth` fingerprint on a side, in SELECT, from 0.
-int ColumnOf(Side side, int nth) {
-  return 1 + (static_cast<int>(side) * kPlacesOfSide + nth) * kColumnsOfPlace;
+// Its first column in SELECT, from 0.
+int ColumnOfPlace(int place) { return 1 + place * kColumnsOfPlace; }
+
+// -1 for what no step holds.
+std::int32_t SmallInteger(Query& row, int column) {
+  const std::int64_t value = row.Integer(column);
+  return std::in_range<std::int32_t>(value) ? static_cast<std::int32_t>(value) : -1;
 }
 
 }  // namespace
@@ -49,10 +54,10 @@ void InsertStep(Connection& connection, std::int64_t journey_id, const JourneySt
   // What is not bound is NULL.
   query.ClearValues();
   query.Bind(1, StepId(journey_id, step.step));
-  std::array<int, 2> on_side{};
+  std::array<int, 2> next_place = {0, kPlacesOfSide};
   for (const RecordedFingerprint& recorded : step.fingerprints) {
     const Fingerprint& fingerprint = recorded.fingerprint;
-    const int before = ColumnOf(recorded.side, on_side[static_cast<std::size_t>(recorded.side)]++);
+    const int before = ColumnOfPlace(next_place[static_cast<std::size_t>(recorded.side)]++);
     query.Bind(before + 1, fingerprint.landmark);
     query.Bind(before + 2, double{fingerprint.x});
     query.Bind(before + 3, double{fingerprint.y});
@@ -75,14 +80,13 @@ absl::StatusOr<JourneyStep> ReadStep(Query& row) {
   JourneyStep step;
   step.step = StepOfId(row.Integer(0));
   for (int place = 0; place < 2 * kPlacesOfSide; ++place) {
-    const int column = 1 + place * kColumnsOfPlace;
+    const int column = ColumnOfPlace(place);
     if (row.IsNull(column)) continue;
     RecordedFingerprint& recorded = step.fingerprints.emplace_back();
     recorded.side = SideOfPlace(place);
     recorded.fingerprint = {static_cast<float>(row.Real(column + 1)),
-                            static_cast<float>(row.Real(column + 2)),
-                            static_cast<std::int32_t>(row.Integer(column + 3)),
-                            static_cast<std::int32_t>(row.Integer(column))};
+                            static_cast<float>(row.Real(column + 2)), SmallInteger(row, column + 3),
+                            SmallInteger(row, column)};
     recorded.spread = row.Real(column + 4);
   }
   for (int side = 0; side < 2; ++side) {
@@ -100,7 +104,7 @@ void FindSides(Connection& connection, std::int64_t journey_id, std::int32_t lan
   while (!sides.contains(landmark) && query.Next()) {
     for (int place = 0; place < 2 * kPlacesOfSide; ++place) {
       if (!query.IsNull(place)) {
-        sides.emplace(static_cast<std::int32_t>(query.Integer(place)), SideOfPlace(place));
+        sides.emplace(SmallInteger(query, place), SideOfPlace(place));
       }
     }
   }

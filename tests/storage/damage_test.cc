@@ -85,6 +85,7 @@ TEST_F(DamageTest, RowsThatContradictEachOtherAreDataLoss) {
       "UPDATE steps SET left1_spread = -1 WHERE step = 3",
       "UPDATE steps SET left1_landmark = 5000 WHERE step = 3",
       "UPDATE steps SET left1_landmark = -1 WHERE step = 3",
+      "UPDATE steps SET left1_landmark = left1_landmark + 4294967296 WHERE step = 3",
       "UPDATE steps SET right1_count = 0 WHERE step = 3",
       "UPDATE steps SET right1_x = 1e300 WHERE step = 3",
       "UPDATE steps SET left_profile = x'010203' WHERE step = 3",
