@@ -18,14 +18,14 @@ constexpr double kLeastFlowPx = 0.05;
 // Nearer than this to the camera, of the median's distance, nothing is taken to be.
 constexpr double kLeastDepth = 0.3;
 // Those outside the image have a cell of their own, the last.
-constexpr std::size_t kOutside = FlowProfile::kCells;
+constexpr int kOutside = FlowProfile::kCells;
 
-std::size_t CellOf(double x, double y) {
+int CellOf(double x, double y) {
   if (!(x >= 0 && x < 1 && y >= 0 && y < 1)) {
     return kOutside;
   }
-  return static_cast<std::size_t>(static_cast<int>(y * FlowProfile::kRows) * FlowProfile::kColumns +
-                                  static_cast<int>(x * FlowProfile::kColumns));
+  return static_cast<int>(y * FlowProfile::kRows) * FlowProfile::kColumns +
+         static_cast<int>(x * FlowProfile::kColumns);
 }
 
 std::uint8_t CodeOf(double share, double relative_flow) {
@@ -125,7 +125,8 @@ FlowProfile ProfileMaker::Make(double magnification) const {
     const double near = midpoint.length * per_median;
     const double larger =
         magnification / std::max(kLeastDepth, magnification + near * (1 - magnification));
-    const std::size_t cell = CellOf(0.5 + midpoint.x * larger, 0.5 + midpoint.y * larger);
+    const auto cell =
+        static_cast<std::size_t>(CellOf(0.5 + midpoint.x * larger, 0.5 + midpoint.y * larger));
     lengths[i] = midpoint.length * larger;
     cell_of[i] = static_cast<std::uint8_t>(cell);
     ++counts[cell];
@@ -146,7 +147,7 @@ FlowProfile ProfileMaker::Make(double magnification) const {
   const double filled = std::min(1.0, magnification * magnification);
   const double whole = std::sqrt(static_cast<double>(inside_count) * FlowProfile::kUsualCount);
   FlowProfile profile;
-  for (std::size_t cell = 0; cell < kOutside; ++cell) {
+  for (std::size_t cell = 0; cell < FlowProfile::kCells; ++cell) {
     if (counts[cell] > 0) {
       const double middle = by_cell[ends[cell] - counts[cell] + counts[cell] / 2];
       profile.cells[cell] = CodeOf(filled * counts[cell] / whole, middle / median);
