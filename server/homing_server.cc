@@ -30,10 +30,6 @@ namespace {
 
 // Clients may ping as often as this.
 constexpr int kMinPingIntervalMs = 5'000;
-// What a stream may send before it is read: at 100 ms there and back, 5 MB a second.
-constexpr int kWindowBytes = 512 << 10;
-// A frame of video in one piece.
-constexpr int kHttp2FrameBytes = 1 << 20;
 
 // The library adds its plugin to every server of a process that links it.
 class WithoutReflection : public grpc::ServerBuilderOption {
@@ -70,12 +66,6 @@ void Configure(const ServerOptions& options, grpc::ServerBuilder* builder) {
   builder->AddChannelArgument(GRPC_ARG_HTTP2_MIN_RECV_PING_INTERVAL_WITHOUT_DATA_MS,
                               kMinPingIntervalMs);
   builder->AddChannelArgument(GRPC_ARG_KEEPALIVE_PERMIT_WITHOUT_CALLS, 1);
-  // Windows that are as large as they need be from the start: to probe for the link's size takes
-  // pings and timers of each of a thousand robots, and in the end windows so large that frames come
-  // into memory that no cache holds.
-  builder->AddChannelArgument(GRPC_ARG_HTTP2_BDP_PROBE, 0);
-  builder->AddChannelArgument(GRPC_ARG_HTTP2_STREAM_LOOKAHEAD_BYTES, kWindowBytes);
-  builder->AddChannelArgument(GRPC_ARG_HTTP2_MAX_FRAME_SIZE, kHttp2FrameBytes);
   if (options.limits.memory_quota > 0) {
     grpc::ResourceQuota quota("homing");
     quota.Resize(static_cast<std::size_t>(options.limits.memory_quota));
