@@ -29,12 +29,6 @@ std::string Word(InputKind input) {
   return "UNKNOWN";
 }
 
-absl::StatusOr<Side> SideOfWord(const std::string& word) {
-  if (word == "LEFT") return Side::kLeft;
-  if (word == "RIGHT") return Side::kRight;
-  return UnknownWord("side", word);
-}
-
 absl::StatusOr<JourneyState> StateOfWord(const std::string& word) {
   if (word == "ACTIVE") return JourneyState::kActive;
   if (word == "FINISHED") return JourneyState::kFinished;

@@ -15,7 +15,6 @@ std::string Word(JourneyState state);
 std::string Word(InputKind input);
 
 // DATA_LOSS for any other word.
-absl::StatusOr<Side> SideOfWord(const std::string& word);
 absl::StatusOr<JourneyState> StateOfWord(const std::string& word);
 absl::StatusOr<InputKind> InputOfWord(const std::string& word);
 

@@ -114,7 +114,6 @@ std::vector<absl::Status> SqliteJourneyStore::AppendSteps(
   std::vector<absl::Status> statuses;
   statuses.reserve(appends.size());
   const absl::Status transaction = Transact([&](Connection&) {
-    appends_.Begin();
     for (const JourneyAppend& append : appends) statuses.push_back(appends_.Append(append));
     appends_.Write();
     return absl::OkStatus();

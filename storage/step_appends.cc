@@ -182,13 +182,10 @@ absl::Status StepAppends::Append(const JourneyAppend& append) {
   return absl::OkStatus();
 }
 
-void StepAppends::Begin() {
-  if (journeys_.size() > kMostKept) Forget();
-}
-
 void StepAppends::Write() {
   for (JourneyColumns* const journey : changed_) WriteJourney(*journey);
   changed_.clear();
+  if (journeys_.size() > kMostKept) Forget();
 }
 
 void StepAppends::Forget() {

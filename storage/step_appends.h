@@ -24,8 +24,6 @@ class StepAppends {
  public:
   explicit StepAppends(Connection* connection) : connection_(connection) {}
 
-  // At the beginning of a transaction.
-  void Begin();
   // Checks all first; after an error nothing of this append is written. NOT_FOUND,
   // FAILED_PRECONDITION (finished, other input), OUT_OF_RANGE (sequence not next), INVALID_ARGUMENT
   // (a step that does not continue the journey).

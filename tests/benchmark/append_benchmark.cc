@@ -77,8 +77,8 @@ class PlainSqlite {
     Execute("PRAGMA journal_mode=WAL");
     Execute("PRAGMA synchronous=FULL");
     Execute("PRAGMA journal_size_limit=67108864");
-    Execute("PRAGMA wal_autocheckpoint=16384");
-    Execute("PRAGMA cache_size=-16384");
+    Execute("PRAGMA wal_autocheckpoint=12288");
+    Execute("PRAGMA cache_size=-6144");
     Execute("PRAGMA foreign_keys=ON");
     step_ = Prepare(
         "INSERT INTO steps (step_id, left1_landmark, left1_x, left1_y, left1_count, left1_spread,"
