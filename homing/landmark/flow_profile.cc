@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <numeric>
 #include <span>
 #include <utility>
@@ -28,14 +29,55 @@ int CellOf(double x, double y) {
          static_cast<int>(x * FlowProfile::kColumns);
 }
 
+long ShareCodeOf(double share) {
+  return std::min<long>(FlowProfile::kMaxCode,
+                        std::lround(FlowProfile::kSharePerRoot * std::sqrt(share)));
+}
+
+long ParallaxCodeOf(double relative_flow) {
+  return std::clamp<long>(
+      FlowProfile::kMedianParallax +
+          std::lround(FlowProfile::kParallaxPerOctave * std::log2(relative_flow)),
+      1, FlowProfile::kMaxCode);
+}
+
+// A code as the number of bounds that a value reaches: the same codes without logarithms. At 0: the
+// code of the least value.
+using CodeBounds = std::array<double, FlowProfile::kMaxCode>;
+
+// The least value >= 0 of each code, which grows with the value. Numbers that are not negative have
+// the order of their bits.
+CodeBounds BoundsOf(long (*code_of)(double)) {
+  CodeBounds bounds;
+  for (std::size_t code = 0; code < bounds.size(); ++code) {
+    std::uint64_t below = 0;
+    auto reached = std::bit_cast<std::uint64_t>(std::numeric_limits<double>::max());
+    while (below < reached) {
+      const std::uint64_t middle = below + (reached - below) / 2;
+      if (code_of(std::bit_cast<double>(middle)) > static_cast<long>(code)) {
+        reached = middle;
+      } else {
+        below = middle + 1;
+      }
+    }
+    bounds[code] = std::bit_cast<double>(reached);
+  }
+  return bounds;
+}
+
+std::uint8_t CodeWithin(const CodeBounds& bounds, double value) {
+  std::uint8_t code = 0;
+  for (const double bound : bounds) {
+    code = static_cast<std::uint8_t>(code + (value >= bound ? 1 : 0));
+  }
+  return code;
+}
+
 std::uint8_t CodeOf(double share, double relative_flow) {
-  const auto share_code = std::min<long>(
-      FlowProfile::kMaxCode, std::lround(FlowProfile::kSharePerRoot * std::sqrt(share)));
-  const auto parallax_code =
-      std::clamp<long>(FlowProfile::kMedianParallax +
-                           std::lround(FlowProfile::kParallaxPerOctave * std::log2(relative_flow)),
-                       1, FlowProfile::kMaxCode);
-  return static_cast<std::uint8_t>(parallax_code << 4 | share_code);
+  static const CodeBounds shares = BoundsOf(ShareCodeOf);
+  static const CodeBounds flows = BoundsOf(ParallaxCodeOf);
+  return static_cast<std::uint8_t>(CodeWithin(flows, relative_flow) << 4 |
+                                   CodeWithin(shares, share));
 }
 
 // Of a number that is not negative: an integer in the order of the numbers, of 16 bits of which the

@@ -71,8 +71,7 @@ class Drive {
     static const CellMask all = CoveredCells(1);
     distances_.resize(stored.size());
     ProfileDistances(view, stored, all, distances_);
-    sample_ = distances_;
-    const DistanceScale scale = ScaleOf(sample_);
+    const DistanceScale scale = ScaleOf(distances_);
     const std::int64_t beside = at + 1 < count ? at + 1 : at - 1;
     const double expected = Ratio(scale, std::max<std::int64_t>(beside, 0));
     // What would lie beyond the ends is no place.
@@ -94,7 +93,6 @@ class Drive {
   std::vector<double> along_;
   std::vector<double> against_;
   std::vector<std::uint16_t> distances_;
-  std::vector<std::uint16_t> sample_;
 };
 
 bool Near(const Twins& a, const Twins& b, std::int64_t tolerance) {

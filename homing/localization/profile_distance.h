@@ -16,11 +16,26 @@ using CellMask = std::array<std::uint8_t, FlowProfile::kCells>;
 // The cells that an image magnified by `magnification` fills.
 CellMask CoveredCells(double magnification);
 
-// To each of `stored`: over the covered cells, the sum of 4 |difference of the share codes| + where
-// both have vectors, |difference of the parallax codes|, at most 6. 0 to 6336. REQUIRES: distances
-// is as long as stored.
-void ProfileDistances(const FlowProfile& seen, std::span<const FlowProfile> stored,
-                      const CellMask& covered, std::span<std::uint16_t> distances);
+// One view of what is seen, and how far it is from each of the stored profiles: over the covered
+// cells, the sum of 4 |what has come of the share code| + 3 |what has gone of it| + where both have
+// vectors, |difference of the parallax codes|, at most 6. 0 to 6336.
+struct ProfileView {
+  const FlowProfile& seen;
+  const CellMask& covered;
+  std::span<std::uint16_t> distances;
+};
+
+// Fills in the distances of all views to `stored`. REQUIRES: they are as long as stored.
+void ProfileDistances(std::span<const ProfileView> views, std::span<const FlowProfile> stored);
+
+inline void ProfileDistances(const FlowProfile& seen, std::span<const FlowProfile> stored,
+                             const CellMask& covered, std::span<std::uint16_t> distances) {
+  const ProfileView view{seen, covered, distances};
+  ProfileDistances({&view, 1}, stored);
+}
+
+// The same cell after cell, on any machine.
+void PlainProfileDistances(const ProfileView& view, std::span<const FlowProfile> stored);
 
 }  // namespace homing
 

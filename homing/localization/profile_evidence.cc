@@ -1,7 +1,11 @@
 #include "homing/localization/profile_evidence.h"
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
+
+#include "homing/flow/median.h"
+#include "homing/vector_clones.h"
 
 namespace homing {
 namespace {
@@ -22,27 +26,43 @@ constexpr double kDeviationWorth = 100;
 constexpr double kMiddle = 600;
 constexpr double kMiddleWorth = 2;
 
+// Number, sum and sum of squares of some distances.
+struct Moments {
+  std::uint64_t count = 0;
+  std::uint64_t sum = 0;
+  std::uint64_t squares = 0;
+};
+
+HOMING_VECTOR_CLONES
+Moments MomentsAbove(std::span<const std::uint16_t> sample, std::uint32_t least) {
+  Moments moments;
+  for (const std::uint32_t distance : sample) {
+    const std::uint32_t above = distance > least ? distance : 0;
+    moments.count += above > 0 ? 1 : 0;
+    moments.sum += above;
+    moments.squares += std::uint64_t{above} * above;
+  }
+  return moments;
+}
+
 }  // namespace
 
 // The lower half holds the matched ones: the deviation is that of the upper half.
-DistanceScale ScaleOf(std::span<std::uint16_t> sample) {
+DistanceScale ScaleOf(std::span<const std::uint16_t> sample) {
   double middle = kMiddle;
   if (!sample.empty()) {
-    const auto half = sample.begin() + static_cast<std::ptrdiff_t>(sample.size() / 2);
-    std::nth_element(sample.begin(), half, sample.end());
+    const double median = Median(std::vector<float>(sample.begin(), sample.end()));
     const auto count = static_cast<double>(sample.size());
-    middle = (count * static_cast<double>(*half) + kMiddleWorth * kMiddle) / (count + kMiddleWorth);
+    middle = (count * median + kMiddleWorth * kMiddle) / (count + kMiddleWorth);
   }
-  double squares = kDeviationWorth * kDeviation * kDeviation;
-  double above = kDeviationWorth;
-  for (const std::uint16_t distance : sample) {
-    const double relative = static_cast<double>(distance) / middle - 1;
-    if (relative > 0) {
-      squares += relative * relative;
-      above += 1;
-    }
-  }
-  const double deviation = middle * std::sqrt(squares / above);
+  // Of the sum of (distance / middle - 1)^2.
+  const Moments above = MomentsAbove(sample, static_cast<std::uint32_t>(middle));
+  const auto count = static_cast<double>(above.count);
+  const double squares = static_cast<double>(above.squares) / (middle * middle) -
+                         2 * static_cast<double>(above.sum) / middle + count;
+  const double variance =
+      (kDeviationWorth * kDeviation * kDeviation + squares) / (kDeviationWorth + count);
+  const double deviation = middle * std::sqrt(variance);
   return {static_cast<float>(middle), static_cast<float>(1 / deviation)};
 }
 
@@ -53,6 +73,21 @@ ProfileRatio::ProfileRatio(double temper) {
     values_[i] = static_cast<float>(
         std::pow(kOutlierShare + (1 - kOutlierShare) * std::exp(evidence), temper));
   }
+}
+
+HOMING_VECTOR_CLONES
+void ProfileRatio::MultiplyEach(const float* __restrict values,
+                                std::span<const std::uint16_t> distances, DistanceScale scale,
+                                float* __restrict factors) {
+  const std::uint16_t* const from = distances.data();
+  for (std::size_t i = 0; i < distances.size(); ++i) {
+    factors[i] *= values[IndexOf(scale.Deviations(from[i]))];
+  }
+}
+
+void ProfileRatio::Multiply(std::span<const std::uint16_t> distances, const DistanceScale& scale,
+                            std::span<float> factors) const {
+  MultiplyEach(values_.data(), distances, scale, factors.data());
 }
 
 const ProfileRatio& ProfileRatio::First() {

@@ -3,7 +3,6 @@
 #ifndef HOMING_LOCALIZATION_PROFILE_EVIDENCE_H_
 #define HOMING_LOCALIZATION_PROFILE_EVIDENCE_H_
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -23,9 +22,9 @@ struct DistanceScale {
   }
 };
 
-// Of the distances to many steps of the journeys, most of them of other places. Reorders `sample`.
-// A short one says little: then what is usual counts more.
-DistanceScale ScaleOf(std::span<std::uint16_t> sample);
+// Of the distances to many steps of the journeys, most of them of other places. A short sample says
+// little: then what is usual counts more.
+DistanceScale ScaleOf(std::span<const std::uint16_t> sample);
 
 // What a view of so many flow vectors may say, of kWholeWeight: few of them show little.
 inline constexpr int kWholeWeight = 8;
@@ -41,17 +40,29 @@ class ProfileRatio {
   static const ProfileRatio& Further(int weight);
 
   float operator()(float deviations) const {
-    const float at = (std::clamp(deviations, -kMost, kMost - 0.01F) + kMost) * kPerDeviation;
-    return values_[static_cast<std::size_t>(at)];
+    return values_[static_cast<std::size_t>(IndexOf(deviations))];
   }
+
+  // Multiplies each factor by the ratio of its distance. REQUIRES: both equally long.
+  void Multiply(std::span<const std::uint16_t> distances, const DistanceScale& scale,
+                std::span<float> factors) const;
 
  private:
   static constexpr float kMost = 16;
   static constexpr float kPerDeviation = 32;
+  static constexpr auto kCount = static_cast<std::int32_t>(2 * kMost * kPerDeviation);
 
   explicit ProfileRatio(double temper);
 
-  std::array<float, static_cast<std::size_t>(2 * kMost * kPerDeviation)> values_;
+  static std::int32_t IndexOf(float deviations) {
+    const auto at = static_cast<std::int32_t>((deviations + kMost) * kPerDeviation);
+    const std::int32_t least = at < 0 ? 0 : at;
+    return least < kCount ? least : kCount - 1;
+  }
+  static void MultiplyEach(const float* __restrict values, std::span<const std::uint16_t> distances,
+                           DistanceScale scale, float* __restrict factors);
+
+  std::array<float, static_cast<std::size_t>(kCount)> values_;
 };
 
 }  // namespace homing

@@ -83,40 +83,56 @@ void ProfileLikelihood::TakeSample(std::span<const JourneyRef> journeys, Side si
   }
 }
 
+std::vector<ProfileLikelihood::SeenView> ProfileLikelihood::ViewsOf(
+    std::size_t side, const ProfileMaker& seen) const {
+  std::vector<SeenView> views;
+  for (std::size_t offset = 0; offset < kViews; ++offset) {
+    if (!chosen_[offset]) continue;
+    const std::size_t view = ViewOf(side, offset);
+    views.push_back({view, seen.Make(MagnificationOf(view))});
+  }
+  return views;
+}
+
 void ProfileLikelihood::Measure(std::span<const JourneyRef> journeys, Side side,
                                 const ProfileMaker& seen, std::span<const StepMass> predicted) {
   const auto at = static_cast<std::size_t>(side);
-  TakeSample(journeys, side);
-  sample_distances_.resize(sample_.size());
-  for (std::size_t offset = 0; offset < kViews; ++offset) {
-    if (!chosen_[offset]) continue;
-    const std::size_t view = ViewOf(at, offset);
-    const FlowProfile profile = seen.Make(MagnificationOf(view));
-    ProfileDistances(profile, sample_, covered_[view], sample_distances_);
-    scales_[at][view] = ScaleOf(sample_distances_);
-    Distances& distances = distances_[at][view];
-    distances.resize(journeys.size());
-    for (std::size_t i = 0; i < journeys.size(); ++i) {
-      auto stored = journeys[i].map->profiles(side);
-      if (!stored.empty()) {
-        stored =
-            stored.subspan(static_cast<std::size_t>(predicted[i].first), predicted[i].mass.size());
-      }
-      distances[i].resize(stored.size());
-      ProfileDistances(profile, stored, covered_[view], distances[i]);
+  const std::vector<SeenView> views = ViewsOf(at, seen);
+  // All views at once: each stored profile is read once.
+  const auto measure = [&](std::span<const FlowProfile> stored, auto distances_of) {
+    std::vector<ProfileView> compared;
+    for (const auto& [view, profile] : views) {
+      std::vector<std::uint16_t>& distances = distances_of(view);
+      distances.resize(stored.size());
+      compared.push_back({profile, covered_[view], distances});
     }
+    ProfileDistances(compared, stored);
+  };
+  TakeSample(journeys, side);
+  std::array<std::vector<std::uint16_t>, kViews> of_sample;
+  measure(
+      sample_, [&](std::size_t view) -> auto& { return of_sample[view]; });
+  for (const auto& [view, profile] : views) {
+    scales_[at][view] = ScaleOf(of_sample[view]);
+    distances_[at][view].resize(journeys.size());
+  }
+  for (std::size_t i = 0; i < journeys.size(); ++i) {
+    auto stored = journeys[i].map->profiles(side);
+    if (!stored.empty()) {
+      stored =
+          stored.subspan(static_cast<std::size_t>(predicted[i].first), predicted[i].mass.size());
+    }
+    measure(
+        stored, [&](std::size_t view) -> auto& { return distances_[at][view][i]; });
   }
 }
 
 void ProfileLikelihood::Multiply(std::size_t side, std::size_t view, std::size_t journey,
                                  std::vector<float>& factors) const {
   const std::vector<std::uint16_t>& distances = distances_[side][view][journey];
-  const DistanceScale scale = scales_[side][view];
   const ProfileRatio& ratio =
       instants_ == 0 ? ProfileRatio::First() : ProfileRatio::Further(weights_[side]);
-  for (std::size_t step = 0; step < distances.size(); ++step) {
-    factors[step] *= ratio(scale.Deviations(distances[step]));
-  }
+  ratio.Multiply(distances, scales_[side][view], std::span(factors).first(distances.size()));
 }
 
 float ProfileLikelihood::WeightOf(std::size_t offset, std::size_t journey,

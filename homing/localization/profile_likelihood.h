@@ -46,11 +46,17 @@ class ProfileLikelihood {
   static constexpr std::size_t kViews = kPathOffsets.size();
   // Of one side and view, by journey and predicted step; empty where the journey has no profiles.
   using Distances = std::vector<std::vector<std::uint16_t>>;
+  struct SeenView {
+    std::size_t view = 0;
+    FlowProfile profile;
+  };
 
   void Choose(std::span<const JourneyRef> journeys, std::span<const StepMass> predicted);
   void TakeSample(std::span<const JourneyRef> journeys, Side side);
   void Measure(std::span<const JourneyRef> journeys, Side side, const ProfileMaker& seen,
                std::span<const StepMass> predicted);
+  // What the chosen offsets make of one side.
+  std::vector<SeenView> ViewsOf(std::size_t side, const ProfileMaker& seen) const;
   // Multiplies the factors of one side's view into `factors`.
   void Multiply(std::size_t side, std::size_t view, std::size_t journey,
                 std::vector<float>& factors) const;
@@ -81,7 +87,6 @@ class ProfileLikelihood {
   // Mean over the predicted mass.
   double mean_fit_ = 0;
   std::vector<FlowProfile> sample_;
-  std::vector<std::uint16_t> sample_distances_;
   std::vector<float> factors_;
   std::vector<std::vector<float>> likelihoods_;
 };

@@ -26,6 +26,8 @@ constexpr double kTurnMotion = 0.05;
 constexpr float kLeastMass = 1e-30F;
 // No motion goes further than this, steps.
 constexpr std::int64_t kFurthest = 4;
+// Steps of a lane that cost no more memory than fewer would.
+constexpr std::size_t kRoom = 64;
 
 // A speed between two whole numbers moves by either so that it is right on average.
 Displacement DisplacementOf(double speed) {
@@ -70,6 +72,12 @@ struct RouteBelief::Motion {
   std::array<Displacement, kSpeedCount> displacements;
 };
 
+// The steps that are held afterwards.
+struct RouteBelief::Carried {
+  std::int64_t begin = 0;
+  std::int64_t end = 0;
+};
+
 double StepMass::Sum() const { return std::accumulate(mass.begin(), mass.end(), 0.0); }
 
 void RouteBelief::Grow(std::int64_t step_count, double mass) {
@@ -98,53 +106,66 @@ float RouteBelief::Beyond(std::size_t lane, std::int64_t step) const {
   return step < 0 || step >= step_count_ ? 0 : static_cast<float>(background_ * PriorOf(lane));
 }
 
-void RouteBelief::FillMixed(std::size_t lane, const Motion& motion, std::int64_t begin,
-                            std::int64_t end) {
+void RouteBelief::Mix(std::size_t lane, const Motion& motion, const Carried& carried,
+                      const Lane& slower, Lane& mixed) const {
   const std::size_t speed = lane % kSpeedCount;
-  const std::int64_t start = begin - kFurthest;
-  mixed_.resize(static_cast<std::size_t>(end - begin + 2 * kFurthest));
+  const std::int64_t start = carried.begin - kFurthest;
+  mixed.resize(static_cast<std::size_t>(carried.end - carried.begin + 2 * kFurthest));
   const std::int64_t held = first_ - start;
   for (std::int64_t i = 0; i < held; ++i) {
-    mixed_[static_cast<std::size_t>(i)] = Beyond(lane, start + i);
+    mixed[static_cast<std::size_t>(i)] = Beyond(lane, start + i);
   }
-  MixLanes({.same = lanes_[lane].data(),
-            .slower = lanes_[speed > 0 ? lane - 1 : lane].data(),
+  const Lane& same = lanes_[lane];
+  MixLanes({.same = same.data(),
+            .slower = speed > 0 ? slower.data() : same.data(),
             .faster = lanes_[speed + 1 < kSpeedCount ? lane + 1 : lane].data(),
             .back = lanes_[(lane + kSpeedCount) % kLanes].data()},
-           motion.mix,
-           std::span(mixed_).subspan(static_cast<std::size_t>(held), lanes_[lane].size()));
-  for (std::int64_t i = held + focus_size(); i < std::ssize(mixed_); ++i) {
-    mixed_[static_cast<std::size_t>(i)] = Beyond(lane, start + i);
+           motion.mix, std::span(mixed).subspan(static_cast<std::size_t>(held), same.size()));
+  for (std::int64_t i = held + std::ssize(same); i < std::ssize(mixed); ++i) {
+    mixed[static_cast<std::size_t>(i)] = Beyond(lane, start + i);
   }
 }
 
+void RouteBelief::MoveMixed(std::size_t lane, const Motion& motion, double restart,
+                            const Lane& mixed, Lane& moved) const {
+  const Displacement& displacement = motion.displacements[lane % kSpeedCount];
+  std::array<float, 4> taps = displacement.probabilities;
+  for (float& tap : taps) {
+    tap *= static_cast<float>(scale_);
+  }
+  // What comes to a step: from further away when moving towards home, from nearer to it otherwise.
+  std::int64_t from = kFurthest + displacement.first;
+  if (lane >= kSpeedCount) {
+    std::ranges::reverse(taps);
+    from = kFurthest - displacement.first - 3;
+  }
+  moved.resize(mixed.size() - 2 * kFurthest);
+  MoveLane(std::span(mixed).subspan(static_cast<std::size_t>(from)), taps,
+           static_cast<float>(restart * PriorOf(lane)), moved);
+}
+
+// Speed by speed, both directions at once: only the speed before is needed as it was. Less memory
+// is gone through than with all lanes twice.
 void RouteBelief::Carry(const Motion& motion, double restart) {
   if (focus_size() == 0) {
     AddToEach(restart);
     return;
   }
-  const std::int64_t begin = std::max<std::int64_t>(0, first_ - kFurthest);
-  const std::int64_t end = std::min(step_count_, first_ + focus_size() + kFurthest);
-  for (std::size_t lane = 0; lane < kLanes; ++lane) {
-    FillMixed(lane, motion, begin, end);
-    const Displacement& displacement = motion.displacements[lane % kSpeedCount];
-    std::array<float, 4> taps = displacement.probabilities;
-    for (float& tap : taps) {
-      tap *= static_cast<float>(scale_);
+  const Carried carried{.begin = std::max<std::int64_t>(0, first_ - kFurthest),
+                        .end = std::min(step_count_, first_ + focus_size() + kFurthest)};
+  std::array<Lane, 2> slower;
+  std::array<Lane, 2> mixed;
+  for (std::size_t speed = 0; speed < kSpeedCount; ++speed) {
+    const std::array lanes = {speed, speed + kSpeedCount};
+    for (std::size_t way = 0; way < lanes.size(); ++way) {
+      Mix(lanes[way], motion, carried, slower[way], mixed[way]);
     }
-    // What comes to a step: from further away when moving towards home, from nearer to it
-    // otherwise.
-    std::int64_t from = kFurthest + displacement.first;
-    if (lane >= kSpeedCount) {
-      std::ranges::reverse(taps);
-      from = kFurthest - displacement.first - 3;
+    for (std::size_t way = 0; way < lanes.size(); ++way) {
+      slower[way].swap(lanes_[lanes[way]]);
+      MoveMixed(lanes[way], motion, restart, mixed[way], lanes_[lanes[way]]);
     }
-    moved_[lane].resize(static_cast<std::size_t>(end - begin));
-    MoveLane(std::span(mixed_).subspan(static_cast<std::size_t>(from)), taps,
-             static_cast<float>(restart * PriorOf(lane)), moved_[lane]);
   }
-  lanes_.swap(moved_);
-  first_ = begin;
+  first_ = carried.begin;
   background_ = background_ * scale_ + restart;
   scale_ = 1;
 }
@@ -195,10 +216,12 @@ void RouteBelief::Focus(double least, const StepMass& mass) {
     background_ = beyond / (scale_ * static_cast<double>(step_count_ - kept));
   }
   for (Lane& lane : lanes_) {
-    lane = Lane(lane.begin() + skipped, lane.begin() + skipped + kept);
-  }
-  for (Lane& lane : moved_) {
-    lane = Lane();
+    std::shift_left(lane.begin(), lane.begin() + skipped + kept, skipped);
+    lane.resize(static_cast<std::size_t>(kept));
+    // Where few steps are left, their room is not kept for all.
+    if (lane.capacity() > 2 * lane.size() + kRoom) {
+      lane.shrink_to_fit();
+    }
   }
   first_ += skipped;
 }

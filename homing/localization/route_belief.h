@@ -67,10 +67,17 @@ class RouteBelief {
   using Lane = std::vector<float>;
   struct Motion;
 
+  // Where the lanes of a motion come from and go to.
+  struct Carried;
+
   void Carry(const Motion& motion, double restart);
-  // Copies a lane, mixed with its neighbours, with what lies on either side of the steps from
-  // `begin` on, into mixed_.
-  void FillMixed(std::size_t lane, const Motion& motion, std::int64_t begin, std::int64_t end);
+  // Copies a lane, mixed with its neighbours, with what lies on either side of the steps of
+  // `carried`, into `mixed`. `slower`: the lane of the speed before, as it was.
+  void Mix(std::size_t lane, const Motion& motion, const Carried& carried, const Lane& slower,
+           Lane& mixed) const;
+  // Moves a mixed lane to where it is now.
+  void MoveMixed(std::size_t lane, const Motion& motion, double restart, const Lane& mixed,
+                 Lane& moved) const;
   float Beyond(std::size_t lane, std::int64_t step) const;
 
   std::int64_t step_count_ = 0;
@@ -81,8 +88,6 @@ class RouteBelief {
   double background_ = 0;
   // All masses are still to be multiplied by this.
   double scale_ = 1;
-  std::array<Lane, kLanes> moved_;
-  Lane mixed_;
 };
 
 }  // namespace homing

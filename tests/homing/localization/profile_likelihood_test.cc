@@ -2,10 +2,13 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <random>
 
 #include "homing/localization/position_filter.h"
+#include "homing/localization/profile_blocks.h"
 #include "homing/localization/profile_evidence.h"
 
 namespace homing {
@@ -176,6 +179,62 @@ TEST(ProfileDistanceTest, CountsSharesAndParallaxOfCoveredCells) {
   EXPECT_EQ(distance[0], (4 * 3 + 2) + (3 * 5 + 6) + 4 * 3);
   ProfileDistances(a, stored, CoveredCells(0.5), distance);
   EXPECT_EQ(distance[0], (3 * 5 + 6) + 4 * 3);
+}
+
+// Codes of all kinds, many of them none.
+FlowProfile RandomCodes(std::mt19937_64& engine) {
+  std::uniform_int_distribution<int> code(-15, FlowProfile::kMaxCode);
+  FlowProfile profile;
+  for (std::uint8_t& cell : profile.cells) {
+    cell = static_cast<std::uint8_t>(std::max(0, code(engine)) << 4 | std::max(0, code(engine)));
+  }
+  return profile;
+}
+
+TEST(ProfileDistanceTest, IsTheSameByBlocksAsCellByCell) {
+  if (!ProfileBlocksFit()) GTEST_SKIP() << "SKIPPED: this machine has no AVX2";
+  std::mt19937_64 engine(10);
+  std::vector<FlowProfile> all;
+  for (int i = 0; i < 70; ++i) all.push_back(RandomCodes(engine));
+  all[3].cells.fill(0xff);
+  all[4].cells.fill(0);
+  // Whole blocks, parts of one, and none.
+  for (const std::size_t count : {0, 1, 31, 32, 33, 64, 70}) {
+    const auto stored = std::span(all).first(count);
+    for (const double magnification : {0.1, 0.65, 1.0, 1.35}) {
+      const CellMask covered = CoveredCells(magnification);
+      const std::array seen = {RandomCodes(engine), all[3], all[4]};
+      std::array<std::vector<std::uint16_t>, 3> by_blocks;
+      std::vector<ProfileView> views;
+      for (std::size_t i = 0; i < seen.size(); ++i) {
+        by_blocks[i].resize(count);
+        views.push_back({seen[i], covered, by_blocks[i]});
+      }
+      ProfileDistancesByBlocks(views, stored);
+      for (std::size_t i = 0; i < seen.size(); ++i) {
+        std::vector<std::uint16_t> plain(count);
+        PlainProfileDistances({seen[i], covered, plain}, stored);
+        EXPECT_EQ(by_blocks[i], plain) << count << " stored, view " << i << " x" << magnification;
+      }
+    }
+  }
+}
+
+TEST(ProfileRatioTest, MultipliesAsOneByOne) {
+  std::vector<std::uint16_t> distances;
+  for (int distance = 0; distance <= 6336; distance += 7) {
+    distances.push_back(static_cast<std::uint16_t>(distance));
+  }
+  // The narrow one reaches beyond both ends of the ratios.
+  for (const DistanceScale scale : {DistanceScale{600, 0.01F}, DistanceScale{900, 1.5F}}) {
+    std::vector<float> factors(distances.size(), 0.5F);
+    const ProfileRatio& ratio = ProfileRatio::Further(5);
+    ratio.Multiply(distances, scale, factors);
+    for (std::size_t i = 0; i < distances.size(); ++i) {
+      ASSERT_EQ(factors[i], 0.5F * ratio(scale.Deviations(distances[i]))) << distances[i];
+    }
+    EXPECT_GT(factors.front(), factors.back());
+  }
 }
 
 }  // namespace
