@@ -176,7 +176,7 @@ class BidiStream : public grpc::ServerBidiReactor<Request, Response>,
   // What is handled on the thread that read it: small messages of a stream whose last took no
   // longer. To wake another thread costs as much as to handle many a message.
   static constexpr std::size_t kHereBytes = 65536;
-  static constexpr std::chrono::microseconds kQuick{250};
+  static constexpr std::chrono::microseconds kQuick{1000};
 
   void HandleGuarded(const Request& request) {
     {

@@ -113,6 +113,11 @@ void JourneyMap::ExtendTo(std::int64_t step_count) {
   }
 }
 
+std::int64_t JourneyMap::step_of(const Fingerprint& f) const {
+  const auto after = std::ranges::upper_bound(step_begin_, &f - fingerprints_.data());
+  return after - step_begin_.begin() - 1;
+}
+
 void JourneyMap::set_profile(std::int64_t step, Side side, const FlowProfile& profile) {
   if (profile == FlowProfile{}) {
     return;

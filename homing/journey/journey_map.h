@@ -80,6 +80,8 @@ class JourneyMap {
                          : fingerprints_.size();
     return std::span<const Fingerprint>(fingerprints_).subspan(begin, end - begin);
   }
+  // REQUIRES: one of the map's.
+  std::int64_t step_of(const Fingerprint& f) const;
   std::span<const Fingerprint> all_fingerprints() const { return fingerprints_; }
   // Of each step, all 0 where it has none; empty if no step of this side has any.
   std::span<const FlowProfile> profiles(Side side) const {

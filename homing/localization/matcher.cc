@@ -95,12 +95,9 @@ void Matcher::Scan(int number, const JourneyMap& map, std::int64_t first, std::i
   if (last < first) return;
   const std::span<const Fingerprint> all(map.fingerprints(first).begin(),
                                          map.fingerprints(last).end());
-  FindNearest(all);
-  std::int64_t step = first;
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    if (nearest_[i] >= reach) continue;
+  FindNear(all, reach);
+  for (const std::uint32_t i : near_) {
     const Fingerprint& stored = all[i];
-    while (std::to_address(map.fingerprints(step).end()) <= &stored) ++step;
     for (const SeenPlace& place : all_seen_) {
       const float squared = SquaredDistance(stored, place.x, place.y);
       if (squared >= reach || map.side_of(stored) != place.side) continue;
@@ -110,18 +107,26 @@ void Matcher::Scan(int number, const JourneyMap& map, std::int64_t first, std::i
       const float most = ratio * bound.At(squared) * (1 + kProductRounding);
       if (double{most} < threshold) continue;
       const std::size_t of = before + static_cast<std::size_t>(stored.landmark);
-      candidates_.push_back({&stored, &landmark, step, number, of, most});
+      candidates_.push_back({&stored, &landmark, number, of, most});
       const float least = ratio * bound.LeastAt(squared) * (1 - kProductRounding);
       least_[of] = std::max(least_[of], least);
     }
   }
 }
 
-void Matcher::FindNearest(std::span<const Fingerprint> stored) {
+// Without a branch: which ones are near depends on nothing that went before.
+void Matcher::FindNear(std::span<const Fingerprint> stored, float reach) {
   nearest_.assign(stored.size(), std::numeric_limits<float>::infinity());
   for (const SeenPlace& place : all_seen_) {
     LowerToDistance(stored, place.x, place.y, nearest_);
   }
+  near_.resize(stored.size());
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < stored.size(); ++i) {
+    near_[count] = static_cast<std::uint32_t>(i);
+    count += nearest_[i] < reach ? 1 : 0;
+  }
+  near_.resize(count);
 }
 
 float Matcher::LeastOfBest(const MatchOptions& options) {
@@ -156,7 +161,7 @@ std::vector<Match> Matcher::Compute(std::span<const JourneyRef> journeys,
     if (similarity.p_t > best.similarity.p_t) {
       best = {.journey = candidate.journey,
               .landmark = candidate.stored->landmark,
-              .step = candidate.step,
+              .step = map.step_of(*candidate.stored),
               .side = map.side_of(*candidate.stored),
               .similarity = similarity};
     }

@@ -72,7 +72,6 @@ class Matcher {
   struct Candidate {
     const Fingerprint* stored = nullptr;
     const SeenLandmark* seen = nullptr;
-    std::int64_t step = 0;
     // Index into the journeys.
     int journey = 0;
     // Number of the landmark over all journeys.
@@ -93,8 +92,8 @@ class Matcher {
   void Clear();
   void Scan(int number, const JourneyMap& map, std::int64_t first, std::int64_t last,
             const SeenSides& seen, double threshold);
-  // Squared distance of each of `stored` from the nearest that is seen.
-  void FindNearest(std::span<const Fingerprint> stored);
+  // Which of `stored` have something that is seen at less than this squared distance.
+  void FindNear(std::span<const Fingerprint> stored, float reach);
   // The P_T that the `most`-th landmark has at least, or the threshold.
   float LeastOfBest(const MatchOptions& options);
   // The best of each landmark that can be among the best.
@@ -102,7 +101,9 @@ class Matcher {
 
   std::vector<std::pair<DeviationModel, std::unique_ptr<const SurvivalBound>>> bounds_;
   std::vector<SeenPlace> all_seen_;
+  // By stored fingerprint, the squared distance of the nearest that is seen.
   std::vector<float> nearest_;
+  std::vector<std::uint32_t> near_;
   std::vector<Candidate> candidates_;
   // By landmark over all journeys: what its P_T is at least.
   std::vector<float> least_;
