@@ -114,6 +114,9 @@ absl::Status Validate(const Camera& camera) {
 FlowField Rectify(const FlowField& raw, const Camera& camera) {
   const bool ideal =
       !camera.intrinsics.has_value() || (!IsDistorted(camera) && camera.yaw_rad == 0);
+  if (ideal && std::ranges::all_of(raw.vectors, IsFinite)) {
+    return raw;
+  }
   FlowField result{raw.width, raw.height, {}};
   result.vectors.reserve(raw.vectors.size());
   for (const FlowVector& v : raw.vectors) {

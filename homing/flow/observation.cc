@@ -1,12 +1,14 @@
 #include "homing/flow/observation.h"
 
 #include <cmath>
+#include <cstdint>
 #include <string>
 #include <utility>
 
 #include "absl/strings/str_cat.h"
 #include "homing/range_check.h"
 #include "homing/status_macros.h"
+#include "homing/vector_clones.h"
 
 namespace homing {
 namespace {
@@ -19,7 +21,20 @@ absl::Status WithSide(const absl::Status& status, std::size_t side) {
 
 // Finite, and no further off the image than its own size.
 bool IsPlausible(float p, int side) {
-  return p >= -static_cast<float>(side) && p <= 2 * static_cast<float>(side);
+  return (p >= -static_cast<float>(side)) & (p <= 2 * static_cast<float>(side));
+}
+
+// All vectors; without a branch for each.
+HOMING_VECTOR_CLONES
+bool ArePlausible(const FlowField& field) {
+  std::int32_t beyond = 0;
+  const int width = field.width, height = field.height;
+  for (const FlowVector& v : field.vectors) {
+    const bool plausible = IsPlausible(v.start_x, width) & IsPlausible(v.end_x, width) &
+                           IsPlausible(v.start_y, height) & IsPlausible(v.end_y, height);
+    beyond |= plausible ? 0 : 1;
+  }
+  return beyond == 0;
 }
 
 absl::Status CheckVector(const FlowField& field, std::size_t index) {
@@ -46,8 +61,10 @@ absl::Status CheckField(const FlowField& field, const DecodeLimits& limits) {
     return absl::InvalidArgumentError(absl::StrCat("flow_vectors has ", field.vectors.size(),
                                                    " vectors, the limit is ", kMaxFlowVectors));
   }
-  for (std::size_t i = 0; i < field.vectors.size(); ++i) {
-    HOMING_RETURN_IF_ERROR(CheckVector(field, i));
+  if (!ArePlausible(field)) {
+    for (std::size_t i = 0; i < field.vectors.size(); ++i) {
+      HOMING_RETURN_IF_ERROR(CheckVector(field, i));
+    }
   }
   return absl::OkStatus();
 }

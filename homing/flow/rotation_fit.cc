@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdint>
 #include <numbers>
+#include <span>
 #include <vector>
 
 #include "homing/flow/median.h"
@@ -48,6 +49,32 @@ struct System {
   double median_v = 0;
 };
 
+// One row a vector; flows also in float, for their medians.
+HOMING_VECTOR_CLONES
+void FillColumns(std::span<const FlowVector> vectors, const Intrinsics& in, double* __restrict x,
+                 double* __restrict y, double* __restrict u, double* __restrict v,
+                 float* __restrict float_u, float* __restrict float_v) {
+  const FlowVector* const from = vectors.data();
+  const double center_x = in.center_x, center_y = in.center_y;
+  const double per_x = 1 / in.focal_x, per_y = 1 / in.focal_y;
+  for (std::size_t i = 0; i < vectors.size(); ++i) {
+    x[i] = (from[i].MidX() - center_x) * per_x;
+    y[i] = (from[i].MidY() - center_y) * per_y;
+    u[i] = from[i].FlowX() * per_x;
+    v[i] = from[i].FlowY() * per_y;
+    float_u[i] = static_cast<float>(u[i]);
+    float_v[i] = static_cast<float>(v[i]);
+  }
+}
+
+HOMING_VECTOR_CLONES
+void FillLengths(std::span<const FlowVector> vectors, float* __restrict lengths) {
+  const FlowVector* const from = vectors.data();
+  for (std::size_t i = 0; i < vectors.size(); ++i) {
+    lengths[i] = static_cast<float>(from[i].Length());
+  }
+}
+
 System::System(const FlowField& field, const Camera& camera) : size(field.vectors.size()) {
   const Intrinsics in = IntrinsicsOf(field, camera);
   focal = in.focal_x;
@@ -57,17 +84,8 @@ System::System(const FlowField& field, const Camera& camera) : size(field.vector
   }
   std::vector<float> all_u(size);
   std::vector<float> all_v(size);
-  const double per_x = 1 / in.focal_x;
-  const double per_y = 1 / in.focal_y;
-  for (std::size_t i = 0; i < size; ++i) {
-    const FlowVector& vector = field.vectors[i];
-    x[i] = (vector.MidX() - in.center_x) * per_x;
-    y[i] = (vector.MidY() - in.center_y) * per_y;
-    u[i] = vector.FlowX() * per_x;
-    v[i] = vector.FlowY() * per_y;
-    all_u[i] = static_cast<float>(u[i]);
-    all_v[i] = static_cast<float>(v[i]);
-  }
+  FillColumns(field.vectors, in, x.data(), y.data(), u.data(), v.data(), all_u.data(),
+              all_v.data());
   median_u = Median(all_u);
   median_v = Median(all_v);
 }
@@ -230,11 +248,8 @@ RotationFit FitRotation(const FlowField& field, const Camera& camera) {
     FitVertical(system, solved.weights, fit);
   }
   fit.median_residual = system.focal * std::sqrt(solved.median_square);
-  std::vector<float> lengths;
-  lengths.reserve(system.size);
-  for (const FlowVector& vector : field.vectors) {
-    lengths.push_back(static_cast<float>(vector.Length()));
-  }
+  std::vector<float> lengths(system.size);
+  FillLengths(field.vectors, lengths.data());
   fit.median_length = Median(lengths);
   return fit;
 }

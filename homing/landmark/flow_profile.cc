@@ -11,6 +11,8 @@
 #include <utility>
 #include <vector>
 
+#include "homing/vector_clones.h"
+
 namespace homing {
 namespace {
 
@@ -21,12 +23,10 @@ constexpr double kLeastDepth = 0.3;
 // Those outside the image have a cell of their own, the last.
 constexpr int kOutside = FlowProfile::kCells;
 
-int CellOf(double x, double y) {
-  if (!(x >= 0 && x < 1 && y >= 0 && y < 1)) {
-    return kOutside;
-  }
-  return static_cast<int>(y * FlowProfile::kRows) * FlowProfile::kColumns +
-         static_cast<int>(x * FlowProfile::kColumns);
+// Which of so many parts of 0..1 holds `at`; where none does, any.
+inline std::int32_t PartOf(double at, int parts) {
+  const double least = at > 0 ? at : 0;
+  return static_cast<std::int32_t>((least < 1 ? least : 0) * parts);
 }
 
 long ShareCodeOf(double share) {
@@ -65,19 +65,18 @@ CodeBounds BoundsOf(long (*code_of)(double)) {
   return bounds;
 }
 
-std::uint8_t CodeWithin(const CodeBounds& bounds, double value) {
-  std::uint8_t code = 0;
-  for (const double bound : bounds) {
-    code = static_cast<std::uint8_t>(code + (value >= bound ? 1 : 0));
-  }
-  return code;
-}
+using CellValues = std::array<double, FlowProfile::kCells>;
+using CellCodes = std::array<std::int64_t, FlowProfile::kCells>;
 
-std::uint8_t CodeOf(double share, double relative_flow) {
-  static const CodeBounds shares = BoundsOf(ShareCodeOf);
-  static const CodeBounds flows = BoundsOf(ParallaxCodeOf);
-  return static_cast<std::uint8_t>(CodeWithin(flows, relative_flow) << 4 |
-                                   CodeWithin(shares, share));
+HOMING_VECTOR_CLONES
+void FindCodes(const CodeBounds& bounds, const CellValues& values, CellCodes& codes) {
+  for (std::size_t cell = 0; cell < values.size(); ++cell) {
+    std::int64_t code = 0;
+    for (const double bound : bounds) {
+      code += values[cell] >= bound ? 1 : 0;
+    }
+    codes[cell] = code;
+  }
 }
 
 // Of a number that is not negative: an integer in the order of the numbers, of 16 bits of which the
@@ -131,8 +130,9 @@ std::vector<Midpoint> SortedByLength(const std::vector<Midpoint>& midpoints) {
   for (std::size_t i = 0; i < from.size(); ++i) {
     sorted.push_back(midpoints[from[i] & 0xffffffff]);
     if (i + 1 == from.size() || from[i + 1] >> 32 != from[i] >> 32) {
-      if (i > begin) {
-        std::ranges::sort(std::span(sorted).subspan(begin), {}, &Midpoint::length);
+      const auto alike = std::span(sorted).subspan(begin);
+      if (alike.size() > 1 && !std::ranges::is_sorted(alike, {}, &Midpoint::length)) {
+        std::ranges::sort(alike, {}, &Midpoint::length);
       }
       begin = i + 1;
     }
@@ -142,58 +142,87 @@ std::vector<Midpoint> SortedByLength(const std::vector<Midpoint>& midpoints) {
 
 }  // namespace
 
-ProfileMaker::ProfileMaker(const FlowField& field) {
-  midpoints_.reserve(field.vectors.size());
-  for (const FlowVector& vector : field.vectors) {
-    const double length = vector.Length();
-    if (std::isfinite(length)) {
-      midpoints_.push_back({.x = (vector.MidX() - 0.5 * (field.width - 1)) / field.width,
-                            .y = (vector.MidY() - 0.5 * (field.height - 1)) / field.height,
-                            .length = std::max(length, kLeastFlowPx)});
-    }
+HOMING_VECTOR_CLONES
+void ProfileMaker::FillMidpoints(const FlowField& field, Midpoint* __restrict midpoints) {
+  const FlowVector* const from = field.vectors.data();
+  const double width = field.width, height = field.height;
+  const double middle_x = 0.5 * (width - 1), middle_y = 0.5 * (height - 1);
+  for (std::size_t i = 0; i < field.vectors.size(); ++i) {
+    const double length = from[i].Length();
+    midpoints[i].x = (from[i].MidX() - middle_x) / width;
+    midpoints[i].y = (from[i].MidY() - middle_y) / height;
+    midpoints[i].length = length < kLeastFlowPx ? kLeastFlowPx : length;
   }
+}
+
+ProfileMaker::ProfileMaker(const FlowField& field) : midpoints_(field.vectors.size()) {
+  FillMidpoints(field, midpoints_.data());
+  std::erase_if(midpoints_, [](const Midpoint& m) { return !std::isfinite(m.length); });
   midpoints_ = SortedByLength(midpoints_);
+}
+
+HOMING_VECTOR_CLONES
+void ProfileMaker::Magnify(std::span<const Midpoint> midpoints, double magnification,
+                           double per_median, std::int32_t* __restrict cells,
+                           double* __restrict lengths) {
+  const Midpoint* const from = midpoints.data();
+  for (std::size_t i = 0; i < midpoints.size(); ++i) {
+    // Nearness to the path, of the median's; what is near changes more than what is far.
+    const double near = from[i].length * per_median;
+    const double depth = magnification + near * (1 - magnification);
+    const double larger = magnification / (depth > kLeastDepth ? depth : kLeastDepth);
+    lengths[i] = from[i].length * larger;
+    const double x = 0.5 + from[i].x * larger;
+    const double y = 0.5 + from[i].y * larger;
+    const bool inside = (x >= 0) & (x < 1) & (y >= 0) & (y < 1);
+    const std::int32_t cell =
+        PartOf(y, FlowProfile::kRows) * FlowProfile::kColumns + PartOf(x, FlowProfile::kColumns);
+    cells[i] = inside ? cell : kOutside;
+  }
 }
 
 FlowProfile ProfileMaker::Make(double magnification) const {
   const std::size_t size = midpoints_.size();
-  std::vector<std::uint8_t> cell_of(size);
+  std::vector<std::int32_t> cell_of(size);
   std::vector<double> lengths(size);
-  std::array<std::uint32_t, kOutside + 1> counts{};
   const double per_median = size == 0 ? 0 : 1 / midpoints_[size / 2].length;
-  for (std::size_t i = 0; i < size; ++i) {
-    const Midpoint& midpoint = midpoints_[i];
-    // Nearness to the path, of the median's; what is near changes more than what is far.
-    const double near = midpoint.length * per_median;
-    const double larger =
-        magnification / std::max(kLeastDepth, magnification + near * (1 - magnification));
-    const auto cell =
-        static_cast<std::size_t>(CellOf(0.5 + midpoint.x * larger, 0.5 + midpoint.y * larger));
-    lengths[i] = midpoint.length * larger;
-    cell_of[i] = static_cast<std::uint8_t>(cell);
-    ++counts[cell];
+  Magnify(midpoints_, magnification, per_median, cell_of.data(), lengths.data());
+  std::array<std::uint32_t, kOutside + 1> counts{};
+  for (const std::int32_t cell : cell_of) {
+    ++counts[static_cast<std::size_t>(cell)];
   }
   // By cell, shortest first: the median is the one in the middle. The same of all inside.
   std::array<std::uint32_t, kOutside + 1> ends{};
   std::exclusive_scan(counts.begin(), counts.end(), ends.begin(), 0U);
-  std::vector<double> by_cell(size);
+  std::vector<double> by_cell(size + 1);
   std::vector<double> inside(size + 1);
   std::size_t inside_count = 0;
   for (std::size_t i = 0; i < size; ++i) {
-    by_cell[ends[cell_of[i]]++] = lengths[i];
+    by_cell[ends[static_cast<std::size_t>(cell_of[i])]++] = lengths[i];
     inside[inside_count] = lengths[i];
     inside_count += cell_of[i] != kOutside ? 1 : 0;
   }
+  if (inside_count == 0) return {};
   const double median = inside[inside_count / 2];
   // Share of this image that the magnified one fills.
   const double filled = std::min(1.0, magnification * magnification);
   const double whole = std::sqrt(static_cast<double>(inside_count) * FlowProfile::kUsualCount);
+  CellValues shares;
+  CellValues flows;
+  for (std::size_t cell = 0; cell < FlowProfile::kCells; ++cell) {
+    shares[cell] = filled * counts[cell] / whole;
+    flows[cell] = by_cell[ends[cell] - counts[cell] + counts[cell] / 2] / median;
+  }
+  static const CodeBounds share_bounds = BoundsOf(ShareCodeOf);
+  static const CodeBounds flow_bounds = BoundsOf(ParallaxCodeOf);
+  CellCodes share_codes;
+  CellCodes flow_codes;
+  FindCodes(share_bounds, shares, share_codes);
+  FindCodes(flow_bounds, flows, flow_codes);
   FlowProfile profile;
   for (std::size_t cell = 0; cell < FlowProfile::kCells; ++cell) {
-    if (counts[cell] > 0) {
-      const double middle = by_cell[ends[cell] - counts[cell] + counts[cell] / 2];
-      profile.cells[cell] = CodeOf(filled * counts[cell] / whole, middle / median);
-    }
+    const std::int64_t codes = flow_codes[cell] << 4 | share_codes[cell];
+    profile.cells[cell] = static_cast<std::uint8_t>(counts[cell] > 0 ? codes : 0);
   }
   return profile;
 }

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "homing/flow/flow_vector.h"
@@ -58,6 +59,11 @@ class ProfileMaker {
     double y = 0;
     double length = 0;
   };
+
+  static void FillMidpoints(const FlowField& field, Midpoint* __restrict midpoints);
+  // Where each midpoint lies in the magnified image, and how long its vector is there.
+  static void Magnify(std::span<const Midpoint> midpoints, double magnification, double per_median,
+                      std::int32_t* __restrict cells, double* __restrict lengths);
 
   // The shortest vector first.
   std::vector<Midpoint> midpoints_;

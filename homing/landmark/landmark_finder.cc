@@ -2,22 +2,34 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <numeric>
+#include <span>
+#include <vector>
+
+#include "homing/vector_clones.h"
 
 namespace homing {
 namespace {
 
-bool IsUsable(const FlowVector& v, const LandmarkOptions& options) {
-  // Of ends that are not all finite the length is not.
-  const double length = v.Length();
-  return length >= options.min_vector_length_px && length <= std::numeric_limits<double>::max();
-}
-
-// Bin of a midpoint; those off the image fall in the outermost bins.
-std::size_t BinOf(double x, int width, std::size_t bins) {
-  const double position = std::clamp(x / std::max(1, width), 0.0, 1.0) * static_cast<double>(bins);
-  return std::min(bins - 1, static_cast<std::size_t>(position));
+// The bin of each midpoint; those off the image fall in the outermost bins. -1: a vector that is
+// not usable.
+HOMING_VECTOR_CLONES
+void FindBins(std::span<const FlowVector> vectors, int width, std::int32_t bins, double min_length,
+              std::int32_t* __restrict bin_of) {
+  const FlowVector* const from = vectors.data();
+  const double per_image = std::max(1, width);
+  for (std::size_t i = 0; i < vectors.size(); ++i) {
+    // Of ends that are not all finite the length is not.
+    const double length = from[i].Length();
+    const bool usable = (length >= min_length) & (length <= std::numeric_limits<double>::max());
+    const double x = from[i].MidX() / per_image;
+    const double least = x > 0 ? x : 0;
+    const auto bin = static_cast<std::int32_t>((least < 1 ? least : 1) * bins);
+    const std::int32_t within = bin < bins ? bin : bins - 1;
+    bin_of[i] = usable ? within : -1;
+  }
 }
 
 // Weights 1, 2, 1 of four: one bin that is empty by chance is no valley.
@@ -124,21 +136,23 @@ SeenLandmark MeanOf(const FlowField& field, const LandmarkSplit& split, int land
 }  // namespace
 
 LandmarkSplit SplitAtValley(const FlowField& field, const LandmarkOptions& options) {
-  const auto bins = static_cast<std::size_t>(options.histogram_bins);
   LandmarkSplit split;
-  split.histogram.assign(bins, 0);
+  split.histogram.assign(static_cast<std::size_t>(options.histogram_bins), 0);
   split.assignment.reserve(field.vectors.size());
-  for (const FlowVector& v : field.vectors) {
-    split.assignment.push_back(IsUsable(v, options) ? 0 : -1);
-    if (split.assignment.back() == 0) {
-      ++split.histogram[BinOf(v.MidX(), field.width, bins)];
+  std::vector<std::int32_t> bin_of(field.vectors.size());
+  FindBins(field.vectors, field.width, options.histogram_bins, options.min_vector_length_px,
+           bin_of.data());
+  for (const std::int32_t bin : bin_of) {
+    split.assignment.push_back(bin < 0 ? -1 : 0);
+    if (bin >= 0) {
+      ++split.histogram[static_cast<std::size_t>(bin)];
     }
   }
   split.valley_x = ValleyOf(split.histogram, field.width, options);
+  if (!split.valley_x) return split;
   for (std::size_t i = 0; i < field.vectors.size(); ++i) {
-    if (split.valley_x && split.assignment[i] == 0 && field.vectors[i].MidX() >= *split.valley_x) {
-      split.assignment[i] = 1;
-    }
+    const bool beyond = field.vectors[i].MidX() >= *split.valley_x;
+    split.assignment[i] = split.assignment[i] == 0 && beyond ? 1 : split.assignment[i];
   }
   return split;
 }
