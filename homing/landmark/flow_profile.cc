@@ -41,12 +41,11 @@ long ParallaxCodeOf(double relative_flow) {
       1, FlowProfile::kMaxCode);
 }
 
-// A code as the number of bounds that a value reaches: the same codes without logarithms. At 0: the
-// code of the least value.
+// A code is the number of bounds that a value reaches: the same codes without logarithms.
 using CodeBounds = std::array<double, FlowProfile::kMaxCode>;
 
-// The least value >= 0 of each code, which grows with the value. Numbers that are not negative have
-// the order of their bits.
+// The n-th: the least value, 0 or more, whose code is above n; codes grow with the value. Found by
+// bisection of its bits, which have the order of the values.
 CodeBounds BoundsOf(long (*code_of)(double)) {
   CodeBounds bounds;
   for (std::size_t code = 0; code < bounds.size(); ++code) {

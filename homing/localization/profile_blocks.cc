@@ -126,13 +126,13 @@ HOMING_AVX2 inline __m256i LookUp(const std::uint8_t* costs, const Row& codes) {
   return _mm256_shuffle_epi8(_mm256_broadcastsi128_si256(table), codes.bytes);
 }
 
-HOMING_AVX2 inline __m256i FullCost(const Block& block, const CountedCell& cell) {
-  return _mm256_add_epi8(LookUp(cell.share, block.share[cell.cell]),
-                         LookUp(cell.parallax, block.parallax[cell.cell]));
-}
-
-HOMING_AVX2 inline __m256i EmptyCost(const Block& block, const CountedCell& cell) {
-  return LookUp(cell.share, block.share[cell.cell]);
+template <bool with_parallax>
+HOMING_AVX2 inline __m256i CostOf(const Block& block, const CountedCell& cell) {
+  const __m256i share = LookUp(cell.share, block.share[cell.cell]);
+  if constexpr (with_parallax) {
+    return _mm256_add_epi8(share, LookUp(cell.parallax, block.parallax[cell.cell]));
+  }
+  return share;
 }
 
 // Sums of 32 profiles, 16 bits each.
@@ -147,24 +147,23 @@ HOMING_AVX2 inline void Add(__m256i bytes, Sums& sums) {
   sums.high = _mm256_add_epi16(sums.high, _mm256_unpackhi_epi8(bytes, zero));
 }
 
-// Three cells fit in a byte.
+// The costs of three cells fit in a byte.
+template <bool with_parallax>
+HOMING_AVX2 inline void AddCells(const Block& block, std::span<const CountedCell> cells,
+                                 Sums& sums) {
+  for (; cells.size() >= 3; cells = cells.subspan(3)) {
+    const __m256i two = _mm256_add_epi8(CostOf<with_parallax>(block, cells[0]),
+                                        CostOf<with_parallax>(block, cells[1]));
+    Add(_mm256_add_epi8(two, CostOf<with_parallax>(block, cells[2])), sums);
+  }
+  for (const CountedCell& cell : cells) Add(CostOf<with_parallax>(block, cell), sums);
+}
+
 HOMING_AVX2 void Measure(const Block& block, const CountedCells& cells,
                          std::span<std::uint16_t> distances) {
   Sums sums{_mm256_setzero_si256(), _mm256_setzero_si256()};
-  std::span<const CountedCell> left = cells.full();
-  for (; left.size() >= 3; left = left.subspan(3)) {
-    Add(_mm256_add_epi8(_mm256_add_epi8(FullCost(block, left[0]), FullCost(block, left[1])),
-                        FullCost(block, left[2])),
-        sums);
-  }
-  for (const CountedCell& cell : left) Add(FullCost(block, cell), sums);
-  left = cells.empty();
-  for (; left.size() >= 3; left = left.subspan(3)) {
-    Add(_mm256_add_epi8(_mm256_add_epi8(EmptyCost(block, left[0]), EmptyCost(block, left[1])),
-                        EmptyCost(block, left[2])),
-        sums);
-  }
-  for (const CountedCell& cell : left) Add(EmptyCost(block, cell), sums);
+  AddCells<true>(block, cells.full(), sums);
+  AddCells<false>(block, cells.empty(), sums);
   alignas(32) std::array<std::uint16_t, kBlock> all;
   auto* const to = reinterpret_cast<__m256i*>(all.data());
   _mm256_store_si256(to, _mm256_permute2x128_si256(sums.low, sums.high, 0x20));
