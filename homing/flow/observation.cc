@@ -30,9 +30,10 @@ bool ArePlausible(const FlowField& field) {
   std::int32_t beyond = 0;
   const int width = field.width, height = field.height;
   for (const FlowVector& v : field.vectors) {
-    const bool plausible = IsPlausible(v.start_x, width) & IsPlausible(v.end_x, width) &
-                           IsPlausible(v.start_y, height) & IsPlausible(v.end_y, height);
-    beyond |= plausible ? 0 : 1;
+    beyond |= IsPlausible(v.start_x, width) ? 0 : 1;
+    beyond |= IsPlausible(v.start_y, height) ? 0 : 1;
+    beyond |= IsPlausible(v.end_x, width) ? 0 : 1;
+    beyond |= IsPlausible(v.end_y, height) ? 0 : 1;
   }
   return beyond == 0;
 }
