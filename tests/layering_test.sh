@@ -79,6 +79,10 @@ check_contents() {
       $(sources homing storage server proto client | grep -v '/main\.cc$')
     forbid 'a clock, chance, a file or a log in homing' \
       'std::chrono|random_device|(^|[^_[:alnum:]])rand\(|fstream|fopen|std::(cout|cerr)|spdlog' $(sources homing)
+    # ThreadSanitizer's suite goes by this: see tests/CMakeLists.txt.
+    forbid 'a thread or a lock in what knows none' \
+      'std::(j?thread|async|(shared_|recursive_)?mutex|atomic|condition_variable|call_once|latch|barrier)|absl::Mutex' \
+      $(sources homing client/simulator tests/homing tests/client/simulator)
   }
 }
 
@@ -126,6 +130,8 @@ self_test() {
   plant homing/landmark/a.h '#include <opencv2/core.hpp>'
   plant homing/landmark/a.h 'void Draw(const cv::Mat& image);'
   plant homing/flow/a.cc 'auto now = std::chrono::steady_clock::now();'
+  plant homing/journey/a.cc 'std::atomic<int> count;'
+  plant tests/homing/a.cc 'std::jthread other([] {});'
   plant storage/a.cc '#include "server/journey_archive.h"'
   plant storage/a.cc '#include <google/protobuf/message.h>'
   plant storage/a.cc 'int x = *result.value();'
