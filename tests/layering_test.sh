@@ -81,7 +81,7 @@ check_contents() {
       'std::chrono|random_device|(^|[^_[:alnum:]])rand\(|fstream|fopen|std::(cout|cerr)|spdlog' $(sources homing)
     # ThreadSanitizer's suite goes by this: see tests/CMakeLists.txt.
     forbid 'a thread or a lock in what knows none' \
-      'std::(j?thread|async|(shared_|recursive_)?mutex|atomic|condition_variable|call_once|latch|barrier)|absl::Mutex' \
+      'std::(j?thread|async|(shared_|recursive_)?mutex|atomic|condition_variable|call_once|latch|barrier)|absl::Mutex|parallel_for_' \
       $(sources homing client/simulator tests/homing tests/client/simulator)
   }
 }
@@ -132,6 +132,7 @@ self_test() {
   plant homing/flow/a.cc 'auto now = std::chrono::steady_clock::now();'
   plant homing/journey/a.cc 'std::atomic<int> count;'
   plant tests/homing/a.cc 'std::jthread other([] {});'
+  plant homing/flow/a.cc 'cv::parallel_for_(range, body);'
   plant storage/a.cc '#include "server/journey_archive.h"'
   plant storage/a.cc '#include <google/protobuf/message.h>'
   plant storage/a.cc 'int x = *result.value();'
