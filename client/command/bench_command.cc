@@ -66,7 +66,12 @@ void AddBenchCommand(CLI::App& app, Session& session) {
       ->capture_default_str();
   command.add_option("--rate", flags->rate, "Observations a second of each robot")
       ->capture_default_str();
-  command.add_option("--seconds", flags->seconds, "How long")->capture_default_str();
+  command.add_option("--seconds", flags->seconds, "How long each robot sends")
+      ->capture_default_str();
+  command
+      .add_option("--ramp", flags->ramp_seconds,
+                  "Robots begin one after the other over so many seconds")
+      ->capture_default_str();
   command
       .add_option_function<std::string>(
           "--send", [flags](const std::string& send) { flags->frames = send == "frames"; },

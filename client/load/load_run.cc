@@ -132,20 +132,29 @@ class Drive {
     robots_.push_back(std::move(robot));
   }
 
-  // Sends at the robots' times, which are spread evenly over a period, until `seconds` are over.
+  // Sends at the robots' times, which are spread evenly over a period, each robot's for `seconds`.
   LoadResult Run(const std::stop_token& stop) {
     using Seconds = std::chrono::duration<double>;
     const LoadClock::time_point start = LoadClock::now() + std::chrono::seconds(1);
-    const auto all = static_cast<std::int64_t>(options_.seconds * options_.rate) *
-                     static_cast<std::int64_t>(robots_.size());
-    const double between = 1 / options_.rate / static_cast<double>(robots_.size());
+    const auto robots = static_cast<std::int64_t>(robots_.size());
+    const auto each = static_cast<std::int64_t>(options_.seconds * options_.rate);
+    const double ramp = options_.ramp_seconds * options_.rate / static_cast<double>(robots);
+    const auto first_of = [ramp](std::int64_t robot) {
+      return static_cast<std::int64_t>(ramp * static_cast<double>(robot));
+    };
+    const std::int64_t all = (first_of(robots - 1) + each) * robots;
+    const double between = 1 / options_.rate / static_cast<double>(robots);
     const auto time_of = [&](std::int64_t i) {
       return start + std::chrono::duration_cast<LoadClock::duration>(
                          Seconds(between * static_cast<double>(i)));
     };
     for (std::int64_t next = 0; next < all && !stop.stop_requested(); Tick()) {
       for (; next < all && time_of(next) <= LoadClock::now(); ++next) {
-        robots_[static_cast<std::size_t>(next) % robots_.size()]->Due(time_of(next));
+        const std::int64_t robot = next % robots;
+        const std::int64_t sent = next / robots - first_of(robot);
+        if (sent >= 0 && sent < each) {
+          robots_[static_cast<std::size_t>(robot)]->Due(time_of(next));
+        }
       }
     }
     for (const auto& robot : robots_) robot->HalfClose();
@@ -260,6 +269,7 @@ absl::Status Validate(const LoadOptions& options) {
   HOMING_RETURN_IF_ERROR(CheckRange("robots", options.robots, 1, 100'000));
   HOMING_RETURN_IF_ERROR(CheckAbove("rate", options.rate, 0.0, 1000.0));
   HOMING_RETURN_IF_ERROR(CheckAbove("seconds", options.seconds, 0.0, 1e6));
+  HOMING_RETURN_IF_ERROR(CheckRange("ramp", options.ramp_seconds, 0.0, 1e6));
   HOMING_RETURN_IF_ERROR(CheckRange("vectors", options.vectors, 0, 100'000));
   HOMING_RETURN_IF_ERROR(CheckRange("journeys", options.journeys, 1, 100'000));
   return CheckRange("steps", options.steps, 1, 1'000'000);

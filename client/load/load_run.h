@@ -19,6 +19,8 @@ struct LoadOptions {
   // Observations a second of each robot. (0, 1000].
   double rate = 10;
   double seconds = 10;
+  // Robots begin one after the other over so many seconds, and send for `seconds` each. [0, 1e6].
+  double ramp_seconds = 0;
   // Else flow vectors.
   bool frames = false;
   // Of each observation. [0, 100'000].

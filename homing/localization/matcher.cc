@@ -17,6 +17,8 @@ namespace {
 
 // Covers the rounding of a bound's product in float, twice over.
 constexpr float kProductRounding = 1e-6F;
+// P_T of which a journey has some landmarks, mostly.
+constexpr double kMuchAlike = 0.5;
 
 MeanAndCount Of(const SeenLandmark& seen) {
   return {double{seen.x}, double{seen.y}, static_cast<double>(seen.count)};
@@ -32,13 +34,16 @@ float SquaredDistance(const Fingerprint& stored, float x, float y) {
   return dx * dx + dy * dy;
 }
 
+// Two places at once: what is stored is gone through less often.
 HOMING_VECTOR_CLONES
-void LowerToDistance(std::span<const Fingerprint> stored, float x, float y,
-                     std::span<float> nearest) {
+void LowerToDistances(std::span<const Fingerprint> stored, float x, float y, float other_x,
+                      float other_y, std::span<float> nearest) {
   const Fingerprint* const from = stored.data();
   float* const to = nearest.data();
   for (std::size_t i = 0; i < stored.size(); ++i) {
-    to[i] = std::min(to[i], SquaredDistance(from[i], x, y));
+    const float one = SquaredDistance(from[i], x, y);
+    const float other = SquaredDistance(from[i], other_x, other_y);
+    to[i] = std::min(to[i], std::min(one, other));
   }
 }
 
@@ -74,8 +79,9 @@ const SurvivalBound& Matcher::BoundOf(const DeviationModel& model) {
 }
 
 void Matcher::Clear() {
+  for (const Candidate& candidate : candidates_) known_[candidate.landmark] = {};
   candidates_.clear();
-  least_.clear();
+  landmark_count_ = 0;
 }
 
 // Bounds of each pair's P_T: the ratio of numbers (eq 15) times those of 1 - F (eq 14).
@@ -90,8 +96,9 @@ void Matcher::Scan(int number, const JourneyMap& map, std::int64_t first, std::i
       all_seen_.push_back({&landmark, landmark.x, landmark.y, static_cast<Side>(side)});
     }
   }
-  const std::size_t before = least_.size();
-  least_.resize(before + map.landmarks().size(), 0);
+  const std::size_t before = landmark_count_;
+  landmark_count_ += map.landmarks().size();
+  if (known_.size() < landmark_count_) known_.resize(landmark_count_);
   if (last < first) return;
   const std::span<const Fingerprint> all(map.fingerprints(first).begin(),
                                          map.fingerprints(last).end());
@@ -109,7 +116,7 @@ void Matcher::Scan(int number, const JourneyMap& map, std::int64_t first, std::i
       const std::size_t of = before + static_cast<std::size_t>(stored.landmark);
       candidates_.push_back({&stored, &landmark, number, of, most});
       const float least = ratio * bound.LeastAt(squared) * (1 - kProductRounding);
-      least_[of] = std::max(least_[of], least);
+      known_[of].least = std::max(known_[of].least, least);
     }
   }
 }
@@ -117,8 +124,10 @@ void Matcher::Scan(int number, const JourneyMap& map, std::int64_t first, std::i
 // Without a branch: which ones are near depends on nothing that went before.
 void Matcher::FindNear(std::span<const Fingerprint> stored, float reach) {
   nearest_.assign(stored.size(), std::numeric_limits<float>::infinity());
-  for (const SeenPlace& place : all_seen_) {
-    LowerToDistance(stored, place.x, place.y, nearest_);
+  for (std::size_t i = 0; i < all_seen_.size(); i += 2) {
+    const SeenPlace& one = all_seen_[i];
+    const SeenPlace& other = all_seen_[std::min(i + 1, all_seen_.size() - 1)];
+    LowerToDistances(stored, one.x, one.y, other.x, other.y, nearest_);
   }
   near_.resize(stored.size());
   std::size_t count = 0;
@@ -129,35 +138,36 @@ void Matcher::FindNear(std::span<const Fingerprint> stored, float reach) {
   near_.resize(count);
 }
 
-float Matcher::LeastOfBest(const MatchOptions& options) {
+float Matcher::LeastOfBest(int most) {
   positive_.clear();
-  std::ranges::copy_if(least_, std::back_inserter(positive_),
-                       [](float least) { return least > 0; });
-  if (std::ssize(positive_) < options.max_matches) {
+  for (const Candidate& candidate : candidates_) {
+    KnownLandmark& known = known_[candidate.landmark];
+    if (known.least > 0 && !known.counted) positive_.push_back(known.least);
+    known.counted = true;
+  }
+  if (std::ssize(positive_) < most) {
     return 0;
   }
-  const auto last = positive_.begin() + options.max_matches - 1;
+  const auto last = positive_.begin() + most - 1;
   std::nth_element(positive_.begin(), last, positive_.end(), std::greater());
   return *last;
 }
 
-std::vector<Match> Matcher::Compute(std::span<const JourneyRef> journeys,
-                                    const MatchOptions& options) {
-  const float of_best = LeastOfBest(options);
-  match_of_.assign(least_.size(), -1);
+std::vector<Match> Matcher::Compute(std::span<const JourneyRef> journeys, double threshold,
+                                    float of_best) {
   std::vector<Match> matches;
   for (const Candidate& candidate : candidates_) {
-    if (candidate.most < std::max(of_best, least_[candidate.landmark])) continue;
+    KnownLandmark& known = known_[candidate.landmark];
+    if (candidate.most < std::max(of_best, known.least)) continue;
     const JourneyMap& map = *journeys[static_cast<std::size_t>(candidate.journey)].map;
     const Similarity similarity =
         Compare(Of(*candidate.seen), Of(*candidate.stored), map.settings().deviation_model);
-    if (similarity.p_t <= 0 || similarity.p_t < options.threshold) continue;
-    std::int32_t& number = match_of_[candidate.landmark];
-    if (number < 0) {
-      number = static_cast<std::int32_t>(matches.size());
+    if (similarity.p_t <= 0 || similarity.p_t < threshold) continue;
+    if (known.match < 0) {
+      known.match = static_cast<std::int32_t>(matches.size());
       matches.emplace_back();
     }
-    Match& best = matches[static_cast<std::size_t>(number)];
+    Match& best = matches[static_cast<std::size_t>(known.match)];
     if (similarity.p_t > best.similarity.p_t) {
       best = {.journey = candidate.journey,
               .landmark = candidate.stored->landmark,
@@ -169,14 +179,26 @@ std::vector<Match> Matcher::Compute(std::span<const JourneyRef> journeys,
   return matches;
 }
 
-std::vector<Match> Matcher::Find(std::span<const JourneyRef> journeys, const SeenSides& seen,
-                                 const MatchOptions& options) {
+void Matcher::ScanAll(std::span<const JourneyRef> journeys, const SeenSides& seen,
+                      double threshold) {
   Clear();
   for (std::size_t i = 0; i < journeys.size(); ++i) {
     const JourneyMap& map = *journeys[i].map;
-    Scan(static_cast<int>(i), map, 0, map.step_count() - 1, seen, options.threshold);
+    Scan(static_cast<int>(i), map, 0, map.step_count() - 1, seen, threshold);
   }
-  std::vector<Match> matches = Compute(journeys, options);
+}
+
+std::vector<Match> Matcher::Find(std::span<const JourneyRef> journeys, const SeenSides& seen,
+                                 const MatchOptions& options) {
+  // What is much like something is looked for first: if there is enough of it, nothing else counts.
+  const double first = std::max(options.threshold, kMuchAlike);
+  ScanAll(journeys, seen, first);
+  float of_best = LeastOfBest(options.max_matches);
+  if (double{of_best} < first && first > options.threshold) {
+    ScanAll(journeys, seen, options.threshold);
+    of_best = LeastOfBest(options.max_matches);
+  }
+  std::vector<Match> matches = Compute(journeys, options.threshold, of_best);
   const auto name = [&journeys](const Match& match) -> const std::string& {
     return *journeys[static_cast<std::size_t>(match.journey)].name;
   };
@@ -199,8 +221,7 @@ std::optional<Match> Matcher::FindBestWithin(const JourneyRef& journey, std::int
                                              double threshold) {
   Clear();
   Scan(0, *journey.map, first, last, seen, threshold);
-  const std::vector<Match> matches =
-      Compute({&journey, 1}, {.max_matches = 1, .threshold = threshold});
+  const std::vector<Match> matches = Compute({&journey, 1}, threshold, LeastOfBest(1));
   const auto best = std::ranges::min_element(matches, IsBetter);
   return best == matches.end() ? std::nullopt : std::optional(*best);
 }

@@ -94,10 +94,12 @@ class Matcher {
             const SeenSides& seen, double threshold);
   // Which of `stored` have something that is seen at less than this squared distance.
   void FindNear(std::span<const Fingerprint> stored, float reach);
-  // The P_T that the `most`-th landmark has at least, or the threshold.
-  float LeastOfBest(const MatchOptions& options);
-  // The best of each landmark that can be among the best.
-  std::vector<Match> Compute(std::span<const JourneyRef> journeys, const MatchOptions& options);
+  // Over all steps.
+  void ScanAll(std::span<const JourneyRef> journeys, const SeenSides& seen, double threshold);
+  // The P_T that the `most`-th landmark has at least, as far as bounds tell; once a scan.
+  float LeastOfBest(int most);
+  // The best of each landmark whose P_T may reach `of_best`.
+  std::vector<Match> Compute(std::span<const JourneyRef> journeys, double threshold, float of_best);
 
   std::vector<std::pair<DeviationModel, std::unique_ptr<const SurvivalBound>>> bounds_;
   std::vector<SeenPlace> all_seen_;
@@ -105,12 +107,19 @@ class Matcher {
   std::vector<float> nearest_;
   std::vector<std::uint32_t> near_;
   std::vector<Candidate> candidates_;
-  // By landmark over all journeys: what its P_T is at least.
-  std::vector<float> least_;
-  // Those above 0.
+  // What candidates say of their landmark.
+  struct KnownLandmark {
+    // Its P_T at least.
+    float least = 0;
+    // Which match it is, or -1.
+    std::int32_t match = -1;
+    bool counted = false;
+  };
+  // Of the journeys scanned.
+  std::size_t landmark_count_ = 0;
+  // By landmark over all journeys.
+  std::vector<KnownLandmark> known_;
   std::vector<float> positive_;
-  // By landmark: which match it is, or -1.
-  std::vector<std::int32_t> match_of_;
 };
 
 }  // namespace homing

@@ -99,12 +99,23 @@ HOMING_AVX2 inline void Transpose(std::array<Row, kTile>& rows) {
   }
 }
 
+const FlowProfile* ProfileAt(std::span<const FlowProfile> stored, std::size_t i) {
+  return &stored[i];
+}
+const FlowProfile* ProfileAt(std::span<const FlowProfile* const> stored, std::size_t i) {
+  return stored[i];
+}
+
 // The last profile stands in for those that a block lacks.
-HOMING_AVX2 void Fill(std::span<const FlowProfile> stored, Block& block) {
+template <typename Profiles>
+HOMING_AVX2 void Fill(Profiles stored, Block& block) {
   const __m256i low = _mm256_set1_epi8(15);
-  const auto part = [&](std::size_t profile, std::size_t cell) {
-    const FlowProfile& of = stored[std::min(profile, stored.size() - 1)];
-    return reinterpret_cast<const __m128i*>(of.cells.data() + cell);
+  std::array<const FlowProfile*, kBlock> of;
+  for (std::size_t i = 0; i < kBlock; ++i) {
+    of[i] = ProfileAt(stored, std::min(i, stored.size() - 1));
+  }
+  const auto part = [&of](std::size_t profile, std::size_t cell) {
+    return reinterpret_cast<const __m128i*>(of[profile]->cells.data() + cell);
   };
   for (std::size_t tile = 0; tile < kCells; tile += kTile) {
     std::array<Row, kTile> rows;
@@ -171,15 +182,8 @@ HOMING_AVX2 void Measure(const Block& block, const CountedCells& cells,
   std::copy_n(all.begin(), distances.size(), distances.begin());
 }
 
-}  // namespace
-
-bool ProfileBlocksFit() {
-  static const bool fit = __builtin_cpu_supports("avx2") != 0;
-  return fit;
-}
-
-HOMING_AVX2 void ProfileDistancesByBlocks(std::span<const ProfileView> views,
-                                          std::span<const FlowProfile> stored) {
+template <typename Profiles>
+HOMING_AVX2 void MeasureAll(std::span<const ProfileView> views, Profiles stored) {
   std::vector<CountedCells> cells(views.begin(), views.end());
   Block block;
   for (std::size_t first = 0; first < stored.size(); first += kBlock) {
@@ -191,17 +195,35 @@ HOMING_AVX2 void ProfileDistancesByBlocks(std::span<const ProfileView> views,
   }
 }
 
+}  // namespace
+
+bool ProfileBlocksFit() {
+  static const bool fit = __builtin_cpu_supports("avx2") != 0;
+  return fit;
+}
+
+void ProfileDistancesByBlocks(std::span<const ProfileView> views,
+                              std::span<const FlowProfile> stored) {
+  MeasureAll(views, stored);
+}
+
+void ProfileDistancesByBlocks(std::span<const ProfileView> views,
+                              std::span<const FlowProfile* const> stored) {
+  MeasureAll(views, stored);
+}
+
 }  // namespace homing
 
 #else
 
 namespace homing {
 
+// Never called.
 bool ProfileBlocksFit() { return false; }
-void ProfileDistancesByBlocks(std::span<const ProfileView> views,
-                              std::span<const FlowProfile> stored) {
-  for (const ProfileView& view : views) PlainProfileDistances(view, stored);
-}
+void ProfileDistancesByBlocks(std::span<const ProfileView> /*views*/,
+                              std::span<const FlowProfile> /*stored*/) {}
+void ProfileDistancesByBlocks(std::span<const ProfileView> /*views*/,
+                              std::span<const FlowProfile* const> /*stored*/) {}
 
 }  // namespace homing
 

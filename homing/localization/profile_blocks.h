@@ -16,6 +16,8 @@ bool ProfileBlocksFit();
 // As ProfileDistances. REQUIRES: ProfileBlocksFit().
 void ProfileDistancesByBlocks(std::span<const ProfileView> views,
                               std::span<const FlowProfile> stored);
+void ProfileDistancesByBlocks(std::span<const ProfileView> views,
+                              std::span<const FlowProfile* const> stored);
 
 }  // namespace homing
 

@@ -51,4 +51,17 @@ void ProfileDistances(std::span<const ProfileView> views, std::span<const FlowPr
   for (const ProfileView& view : views) PlainProfileDistances(view, stored);
 }
 
+void ProfileDistances(std::span<const ProfileView> views,
+                      std::span<const FlowProfile* const> stored) {
+  if (ProfileBlocksFit()) {
+    ProfileDistancesByBlocks(views, stored);
+    return;
+  }
+  for (const auto& [seen, covered, distances] : views) {
+    for (std::size_t i = 0; i < stored.size(); ++i) {
+      PlainProfileDistances({seen, covered, distances.subspan(i, 1)}, {stored[i], 1});
+    }
+  }
+}
+
 }  // namespace homing

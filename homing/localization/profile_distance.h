@@ -27,6 +27,8 @@ struct ProfileView {
 
 // Fills in the distances of all views to `stored`. REQUIRES: they are as long as stored.
 void ProfileDistances(std::span<const ProfileView> views, std::span<const FlowProfile> stored);
+void ProfileDistances(std::span<const ProfileView> views,
+                      std::span<const FlowProfile* const> stored);
 
 inline void ProfileDistances(const FlowProfile& seen, std::span<const FlowProfile> stored,
                              const CellMask& covered, std::span<std::uint16_t> distances) {

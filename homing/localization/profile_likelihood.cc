@@ -19,6 +19,25 @@ bool HasProfiles(const JourneyRef& journey, std::size_t side) {
   return !journey.map->profiles(Side{static_cast<int>(side)}).empty();
 }
 
+std::vector<const FlowProfile*> SampleOf(std::span<const JourneyRef> journeys, Side side) {
+  std::int64_t all = 0;
+  for (const JourneyRef& journey : journeys) {
+    all += std::ssize(journey.map->profiles(side));
+  }
+  const std::int64_t stride = std::max<std::int64_t>(1, all / kSamples);
+  std::vector<const FlowProfile*> sample;
+  sample.reserve(2 * kSamples);
+  std::int64_t next = 0;
+  for (const JourneyRef& journey : journeys) {
+    const auto stored = journey.map->profiles(side);
+    for (; next < std::ssize(stored); next += stride) {
+      sample.push_back(&stored[static_cast<std::size_t>(next)]);
+    }
+    next -= std::ssize(stored);
+  }
+  return sample;
+}
+
 }  // namespace
 
 ProfileLikelihood::ProfileLikelihood() : anywhere_(PathOffsets::Prior()) {
@@ -66,23 +85,6 @@ void ProfileLikelihood::Choose(std::span<const JourneyRef> journeys,
   }
 }
 
-void ProfileLikelihood::TakeSample(std::span<const JourneyRef> journeys, Side side) {
-  std::int64_t all = 0;
-  for (const JourneyRef& journey : journeys) {
-    all += std::ssize(journey.map->profiles(side));
-  }
-  const std::int64_t stride = std::max<std::int64_t>(1, all / kSamples);
-  sample_.clear();
-  std::int64_t next = 0;
-  for (const JourneyRef& journey : journeys) {
-    const auto stored = journey.map->profiles(side);
-    for (; next < std::ssize(stored); next += stride) {
-      sample_.push_back(stored[static_cast<std::size_t>(next)]);
-    }
-    next -= std::ssize(stored);
-  }
-}
-
 std::vector<ProfileLikelihood::SeenView> ProfileLikelihood::ViewsOf(
     std::size_t side, const ProfileMaker& seen) const {
   std::vector<SeenView> views;
@@ -99,19 +101,18 @@ void ProfileLikelihood::Measure(std::span<const JourneyRef> journeys, Side side,
   const auto at = static_cast<std::size_t>(side);
   const std::vector<SeenView> views = ViewsOf(at, seen);
   // All views at once: each stored profile is read once.
-  const auto measure = [&](std::span<const FlowProfile> stored, auto distances_of) {
+  const auto measure = [&](const auto& stored, auto distances_of) {
     std::vector<ProfileView> compared;
     for (const auto& [view, profile] : views) {
       std::vector<std::uint16_t>& distances = distances_of(view);
       distances.resize(stored.size());
       compared.push_back({profile, covered_[view], distances});
     }
-    ProfileDistances(compared, stored);
+    ProfileDistances(compared, std::span(stored));
   };
-  TakeSample(journeys, side);
   std::array<std::vector<std::uint16_t>, kViews> of_sample;
   measure(
-      sample_, [&](std::size_t view) -> auto& { return of_sample[view]; });
+      SampleOf(journeys, side), [&](std::size_t view) -> auto& { return of_sample[view]; });
   for (const auto& [view, profile] : views) {
     scales_[at][view] = ScaleOf(of_sample[view]);
     distances_[at][view].resize(journeys.size());

@@ -52,7 +52,6 @@ class ProfileLikelihood {
   };
 
   void Choose(std::span<const JourneyRef> journeys, std::span<const StepMass> predicted);
-  void TakeSample(std::span<const JourneyRef> journeys, Side side);
   void Measure(std::span<const JourneyRef> journeys, Side side, const ProfileMaker& seen,
                std::span<const StepMass> predicted);
   // What the chosen offsets make of one side.
@@ -86,7 +85,6 @@ class ProfileLikelihood {
   std::vector<std::size_t> first_stretch_;
   // Mean over the predicted mass.
   double mean_fit_ = 0;
-  std::vector<FlowProfile> sample_;
   std::vector<float> factors_;
   std::vector<std::vector<float>> likelihoods_;
 };
