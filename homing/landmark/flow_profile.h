@@ -50,23 +50,25 @@ class ProfileMaker {
   // of the vectors.
   FlowProfile Make(double magnification = 1) const;
   // Vectors.
-  std::size_t size() const { return midpoints_.size(); }
+  std::size_t size() const { return midpoints_.lengths.size(); }
 
  private:
-  // Midpoint from the middle of the image, in images; length in pixels.
-  struct Midpoint {
-    double x = 0;
-    double y = 0;
-    double length = 0;
+  // Midpoints from the middle of the image, in images; lengths in pixels.
+  struct Midpoints {
+    explicit Midpoints(std::size_t size = 0) : x(size), y(size), lengths(size) {}
+    std::vector<double> x;
+    std::vector<double> y;
+    std::vector<double> lengths;
   };
 
-  static void FillMidpoints(const FlowField& field, Midpoint* __restrict midpoints);
+  static void FillMidpoints(const FlowField& field, double* __restrict x, double* __restrict y,
+                            double* __restrict lengths);
   // Where each midpoint lies in the magnified image, and how long its vector is there.
-  static void Magnify(std::span<const Midpoint> midpoints, double magnification, double per_median,
+  static void Magnify(const Midpoints& midpoints, double magnification, double per_median,
                       std::int32_t* __restrict cells, double* __restrict lengths);
 
   // The shortest vector first.
-  std::vector<Midpoint> midpoints_;
+  Midpoints midpoints_;
 };
 
 inline FlowProfile MakeFlowProfile(const FlowField& field) { return ProfileMaker(field).Make(); }
