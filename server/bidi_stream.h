@@ -7,7 +7,6 @@
 
 #include <atomic>
 #include <chrono>
-#include <ctime>
 #include <deque>
 #include <memory>
 #include <mutex>
@@ -179,13 +178,6 @@ class BidiStream : public grpc::ServerBidiReactor<Request, Response>,
   static constexpr std::size_t kHereBytes = 65536;
   static constexpr std::chrono::microseconds kQuick{1000};
 
-  // Of the processor: being put aside for another thread makes no message slow.
-  static std::chrono::nanoseconds ThreadTime() {
-    timespec time{};
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-    return std::chrono::seconds(time.tv_sec) + std::chrono::nanoseconds(time.tv_nsec);
-  }
-
   void HandleGuarded(const Request& request) {
     {
       const std::lock_guard lock(mutex_);
@@ -193,9 +185,9 @@ class BidiStream : public grpc::ServerBidiReactor<Request, Response>,
         return;
       }
     }
-    const auto begin = ThreadTime();
+    const auto begin = std::chrono::steady_clock::now();
     const absl::Status status = Guarded([&] { return Handle(request); });
-    quick_ = ThreadTime() - begin < kQuick;
+    quick_ = std::chrono::steady_clock::now() - begin < kQuick;
     if (!status.ok()) {
       End(status);
     }

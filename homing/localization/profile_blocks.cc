@@ -218,8 +218,8 @@ void ProfileDistancesByBlocks(std::span<const ProfileView> views,
 
 namespace homing {
 
-// Never called.
 bool ProfileBlocksFit() { return false; }
+// Never called, then.
 void ProfileDistancesByBlocks(std::span<const ProfileView> /*views*/,
                               std::span<const FlowProfile> /*stored*/) {}
 void ProfileDistancesByBlocks(std::span<const ProfileView> /*views*/,

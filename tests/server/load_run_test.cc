@@ -65,6 +65,16 @@ TEST_F(LoadRunTest, RobotsLocalise) {
   ExpectAllAnswered(Run());
 }
 
+TEST_F(LoadRunTest, RobotsBeginOneAfterTheOther) {
+  load_.ramp_seconds = 0.4;
+  const auto result = Run();
+  ExpectAllAnswered(result);
+  // The last one begins three quarters of the ramp after the first.
+  EXPECT_GT(result->seconds, 0.3 + 0.45);
+  load_.ramp_seconds = -1;
+  EXPECT_THAT(Run().status(), StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("ramp")));
+}
+
 // Far faster than they are answered, so that many wait on every side.
 TEST_F(LoadRunTest, ObservationsStayInOrderWhenTheyComeFast) {
   load_.localize = true;

@@ -214,6 +214,12 @@ TEST(ProfileDistanceTest, IsTheSameByBlocksAsCellByCell) {
       for (std::size_t i = 0; i < seen.size(); ++i) {
         std::vector<std::uint16_t> plain(count);
         PlainProfileDistances({seen[i], covered, plain}, stored);
+        std::vector<const FlowProfile*> listed;
+        for (const FlowProfile& profile : stored) listed.push_back(&profile);
+        std::vector<std::uint16_t> of_list(count);
+        const ProfileView view{seen[i], covered, of_list};
+        ProfileDistances({&view, 1}, listed);
+        EXPECT_EQ(of_list, plain) << count << " listed";
         EXPECT_EQ(by_blocks[i], plain) << count << " stored, view " << i << " x" << magnification;
       }
     }
