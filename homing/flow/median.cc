@@ -76,6 +76,26 @@ std::int32_t MedianOf(const std::vector<std::int32_t>& keys) {
   return low;
 }
 
+// Sixteen lanes of 16 bits: no count of so many outgrows them.
+constexpr std::size_t kCounted = 32768;
+
+HOMING_VECTOR_CLONES
+std::uint16_t CountBelow(const std::uint16_t* values, std::size_t size, std::uint16_t bound) {
+  std::uint16_t count = 0;
+  for (std::size_t i = 0; i < size; ++i) {
+    count = static_cast<std::uint16_t>(count + (values[i] < bound ? 1 : 0));
+  }
+  return count;
+}
+
+std::size_t CountAllBelow(std::span<const std::uint16_t> values, std::uint16_t bound) {
+  std::size_t count = 0;
+  for (; values.size() > kCounted; values = values.subspan(kCounted)) {
+    count += CountBelow(values.data(), kCounted, bound);
+  }
+  return count + CountBelow(values.data(), values.size(), bound);
+}
+
 }  // namespace
 
 float Median(std::span<const float> values) {
@@ -86,6 +106,16 @@ float Median(std::span<const float> values) {
   RankKeys(values.data(), values.size(), keys.data());
   const std::int32_t key = MedianOf(keys);
   return std::bit_cast<float>(key ^ ((key >> 31) & std::numeric_limits<std::int32_t>::max()));
+}
+
+// The greatest value that at most half of them are below, bit by bit.
+std::uint16_t Median(std::span<const std::uint16_t> values) {
+  unsigned median = 0;
+  for (unsigned bit = 1U << 15U; bit > 0 && !values.empty(); bit >>= 1U) {
+    const auto bound = static_cast<std::uint16_t>(median | bit);
+    if (CountAllBelow(values, bound) <= values.size() / 2) median = bound;
+  }
+  return static_cast<std::uint16_t>(median);
 }
 
 }  // namespace homing

@@ -53,28 +53,30 @@ struct Block {
   std::array<Row, kCells> parallax;
 };
 
-// A cell that counts, with the costs of what is seen there.
+// A cell that counts, and the codes of what is seen there.
 struct CountedCell {
   std::uint8_t cell = 0;
-  const std::uint8_t* share = nullptr;
-  const std::uint8_t* parallax = nullptr;
+  std::uint8_t codes = 0;
 };
 
 // The cells of one view that count.
 class CountedCells {
  public:
+  // Which they are no branch could foresee: each is written wherever it could belong.
   explicit CountedCells(const ProfileView& view) {
+    std::size_t full = 0;
+    std::size_t empty = 0;
     for (std::uint8_t cell = 0; cell < kCells; ++cell) {
       const std::uint8_t codes = view.seen.cells[cell];
-      const CountedCell counted{cell, kCosts.share[codes & 15U].data(),
-                                kCosts.parallax[codes >> 4U].data()};
+      cells_[full] = cells_[kCells - 1 - empty] = {cell, codes};
       // Where nothing is seen there is no parallax to compare.
-      if (view.covered[cell] != 0 && codes >> 4U != 0) {
-        cells_[full_++] = counted;
-      } else if (view.covered[cell] != 0) {
-        cells_[kCells - ++empty_] = counted;
-      }
+      const unsigned counts = view.covered[cell] & 1U;
+      const unsigned has_parallax = codes >> 4U != 0 ? 1 : 0;
+      full += counts & has_parallax;
+      empty += counts & (1 - has_parallax);
     }
+    full_ = full;
+    empty_ = empty;
   }
   std::span<const CountedCell> full() const { return std::span(cells_).first(full_); }
   std::span<const CountedCell> empty() const { return std::span(cells_).last(empty_); }
@@ -139,9 +141,10 @@ HOMING_AVX2 inline __m256i LookUp(const std::uint8_t* costs, const Row& codes) {
 
 template <bool with_parallax>
 HOMING_AVX2 inline __m256i CostOf(const Block& block, const CountedCell& cell) {
-  const __m256i share = LookUp(cell.share, block.share[cell.cell]);
+  const __m256i share = LookUp(kCosts.share[cell.codes & 15U].data(), block.share[cell.cell]);
   if constexpr (with_parallax) {
-    return _mm256_add_epi8(share, LookUp(cell.parallax, block.parallax[cell.cell]));
+    const auto& costs = kCosts.parallax[cell.codes >> 4U];
+    return _mm256_add_epi8(share, LookUp(costs.data(), block.parallax[cell.cell]));
   }
   return share;
 }

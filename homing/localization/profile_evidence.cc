@@ -51,7 +51,7 @@ Moments MomentsAbove(std::span<const std::uint16_t> sample, std::uint32_t least)
 DistanceScale ScaleOf(std::span<const std::uint16_t> sample) {
   double middle = kMiddle;
   if (!sample.empty()) {
-    const double median = Median(std::vector<float>(sample.begin(), sample.end()));
+    const double median = Median(sample);
     const auto count = static_cast<double>(sample.size());
     middle = (count * median + kMiddleWorth * kMiddle) / (count + kMiddleWorth);
   }

@@ -13,7 +13,7 @@ constexpr double kForeignEvidence = 0.205;
 // Stored profiles that tell how far away those of other places are; at most twice as many.
 constexpr std::int64_t kSamples = 256;
 // A less probable offset is tried only now and then, once the place is known.
-constexpr double kLeastOffset = 0.02;
+constexpr double kLeastOffset = 0.05;
 
 bool HasProfiles(const JourneyRef& journey, std::size_t side) {
   return !journey.map->profiles(Side{static_cast<int>(side)}).empty();
@@ -101,21 +101,18 @@ void ProfileLikelihood::Measure(std::span<const JourneyRef> journeys, Side side,
   const auto at = static_cast<std::size_t>(side);
   const std::vector<SeenView> views = ViewsOf(at, seen);
   // All views at once: each stored profile is read once.
-  const auto measure = [&](const auto& stored, auto distances_of) {
-    std::vector<ProfileView> compared;
-    for (const auto& [view, profile] : views) {
-      std::vector<std::uint16_t>& distances = distances_of(view);
-      distances.resize(stored.size());
-      compared.push_back({profile, covered_[view], distances});
-    }
-    ProfileDistances(compared, std::span(stored));
-  };
-  std::array<std::vector<std::uint16_t>, kViews> of_sample;
-  measure(
-      SampleOf(journeys, side), [&](std::size_t view) -> auto& { return of_sample[view]; });
-  for (const auto& [view, profile] : views) {
-    scales_[at][view] = ScaleOf(of_sample[view]);
-    distances_[at][view].resize(journeys.size());
+  std::vector<ProfileView> compared;
+  compared.reserve(views.size());
+  const std::vector<const FlowProfile*> sample = SampleOf(journeys, side);
+  std::vector<std::uint16_t> of_sample(views.size() * sample.size());
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    compared.push_back({views[i].profile, covered_[views[i].view],
+                        std::span(of_sample).subspan(i * sample.size(), sample.size())});
+  }
+  ProfileDistances(compared, std::span(sample));
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    scales_[at][views[i].view] = ScaleOf(compared[i].distances);
+    distances_[at][views[i].view].resize(journeys.size());
   }
   for (std::size_t i = 0; i < journeys.size(); ++i) {
     auto stored = journeys[i].map->profiles(side);
@@ -123,8 +120,13 @@ void ProfileLikelihood::Measure(std::span<const JourneyRef> journeys, Side side,
       stored =
           stored.subspan(static_cast<std::size_t>(predicted[i].first), predicted[i].mass.size());
     }
-    measure(
-        stored, [&](std::size_t view) -> auto& { return distances_[at][view][i]; });
+    compared.clear();
+    for (const auto& [view, profile] : views) {
+      std::vector<std::uint16_t>& distances = distances_[at][view][i];
+      distances.resize(stored.size());
+      compared.push_back({profile, covered_[view], distances});
+    }
+    ProfileDistances(compared, stored);
   }
 }
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <limits>
 #include <random>
 #include <vector>
@@ -10,14 +11,17 @@
 namespace homing {
 namespace {
 
-float BySorting(std::vector<float> values) {
+template <typename T>
+T BySorting(std::vector<T> values) {
   std::ranges::sort(values);
   return values[values.size() / 2];
 }
 
 TEST(MedianTest, OfNoneIsZeroAndOfOneThatOne) {
-  EXPECT_EQ(Median({}), 0);
+  EXPECT_EQ(Median(std::vector<float>{}), 0);
   EXPECT_EQ(Median(std::vector<float>{-3}), -3);
+  EXPECT_EQ(Median(std::vector<std::uint16_t>{}), 0);
+  EXPECT_EQ(Median(std::vector<std::uint16_t>{65535}), 65535);
 }
 
 TEST(MedianTest, IsTheUpperOneOfTwoInTheMiddle) {
@@ -42,6 +46,17 @@ TEST(MedianTest, IsWhatSortingGives) {
     for (float& value : values) {
       value = trial % 2 == 0 ? normal(random) : static_cast<float>(few(random));
     }
+    EXPECT_EQ(Median(values), BySorting(values));
+  }
+}
+
+TEST(MedianTest, OfIntegersIsWhatSortingGives) {
+  std::mt19937 random(6);
+  for (int trial = 0; trial < 2000; ++trial) {
+    std::uniform_int_distribution<int> size(1, trial % 500 == 0 ? 100000 : 300);
+    std::uniform_int_distribution<int> value(0, trial % 3 == 0 ? 65535 : 4);
+    std::vector<std::uint16_t> values(static_cast<std::size_t>(size(random)));
+    for (std::uint16_t& one : values) one = static_cast<std::uint16_t>(value(random));
     EXPECT_EQ(Median(values), BySorting(values));
   }
 }
