@@ -1,7 +1,10 @@
 #include "homing/localization/matcher.h"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
+#include <cstdint>
+#include <cstring>
 #include <functional>
 #include <iterator>
 #include <limits>
@@ -34,16 +37,16 @@ float SquaredDistance(const Fingerprint& stored, float x, float y) {
   return dx * dx + dy * dy;
 }
 
-// Two places at once: what is stored is gone through less often.
+// 1 for each that is nearer than `reach` to either of two places, else 0. Two at once: what is
+// stored is gone through less often.
 HOMING_VECTOR_CLONES
-void LowerToDistances(std::span<const Fingerprint> stored, float x, float y, float other_x,
-                      float other_y, std::span<float> nearest) {
+void FlagNear(std::span<const Fingerprint> stored, float x, float y, float other_x, float other_y,
+              float reach, std::uint8_t* __restrict flags) {
   const Fingerprint* const from = stored.data();
-  float* const to = nearest.data();
   for (std::size_t i = 0; i < stored.size(); ++i) {
     const float one = SquaredDistance(from[i], x, y);
     const float other = SquaredDistance(from[i], other_x, other_y);
-    to[i] = std::min(to[i], std::min(one, other));
+    flags[i] = static_cast<std::uint8_t>(flags[i] | (std::min(one, other) < reach ? 1 : 0));
   }
 }
 
@@ -100,42 +103,46 @@ void Matcher::Scan(int number, const JourneyMap& map, std::int64_t first, std::i
   landmark_count_ += map.landmarks().size();
   if (known_.size() < landmark_count_) known_.resize(landmark_count_);
   if (last < first) return;
-  const std::span<const Fingerprint> all(map.fingerprints(first).begin(),
-                                         map.fingerprints(last).end());
-  FindNear(all, reach);
-  for (const std::uint32_t i : near_) {
-    const Fingerprint& stored = all[i];
-    for (const SeenPlace& place : all_seen_) {
-      const float squared = SquaredDistance(stored, place.x, place.y);
-      if (squared >= reach || map.side_of(stored) != place.side) continue;
-      const SeenLandmark& landmark = *place.landmark;
-      const auto [low, high] = std::minmax(stored.count, landmark.count);
-      const float ratio = static_cast<float>(low) / static_cast<float>(high);
-      const float most = ratio * bound.At(squared) * (1 + kProductRounding);
-      if (double{most} < threshold) continue;
-      const std::size_t of = before + static_cast<std::size_t>(stored.landmark);
-      candidates_.push_back({&stored, &landmark, number, of, most});
-      const float least = ratio * bound.LeastAt(squared) * (1 - kProductRounding);
-      known_[of].least = std::max(known_[of].least, least);
+  std::span<const Fingerprint> all(map.fingerprints(first).begin(), map.fingerprints(last).end());
+  for (; !all.empty(); all = all.subspan(std::min(all.size(), kTile))) {
+    for (const Fingerprint* const near : FindNear(all.first(std::min(all.size(), kTile)), reach)) {
+      const Fingerprint& stored = *near;
+      for (const SeenPlace& place : all_seen_) {
+        const float squared = SquaredDistance(stored, place.x, place.y);
+        if (squared >= reach || map.side_of(stored) != place.side) continue;
+        const SeenLandmark& landmark = *place.landmark;
+        const auto [low, high] = std::minmax(stored.count, landmark.count);
+        const float ratio = static_cast<float>(low) / static_cast<float>(high);
+        const float most = ratio * bound.At(squared) * (1 + kProductRounding);
+        if (double{most} < threshold) continue;
+        const std::size_t of = before + static_cast<std::size_t>(stored.landmark);
+        candidates_.push_back({&stored, &landmark, number, of, most});
+        const float least = ratio * bound.LeastAt(squared) * (1 - kProductRounding);
+        known_[of].least = std::max(known_[of].least, least);
+      }
     }
   }
 }
 
-// Without a branch: which ones are near depends on nothing that went before.
-void Matcher::FindNear(std::span<const Fingerprint> stored, float reach) {
-  nearest_.assign(stored.size(), std::numeric_limits<float>::infinity());
+// Most are not: eight flags are looked at together.
+std::span<const Fingerprint* const> Matcher::FindNear(std::span<const Fingerprint> tile,
+                                                      float reach) {
+  std::array<std::uint8_t, kTile> flags{};
   for (std::size_t i = 0; i < all_seen_.size(); i += 2) {
     const SeenPlace& one = all_seen_[i];
     const SeenPlace& other = all_seen_[std::min(i + 1, all_seen_.size() - 1)];
-    LowerToDistances(stored, one.x, one.y, other.x, other.y, nearest_);
+    FlagNear(tile, one.x, one.y, other.x, other.y, reach, flags.data());
   }
-  near_.resize(stored.size());
   std::size_t count = 0;
-  for (std::size_t i = 0; i < stored.size(); ++i) {
-    near_[count] = static_cast<std::uint32_t>(i);
-    count += nearest_[i] < reach ? 1 : 0;
+  for (std::size_t begin = 0; begin < tile.size(); begin += sizeof(std::uint64_t)) {
+    std::uint64_t eight = 0;
+    std::memcpy(&eight, flags.data() + begin, sizeof(eight));
+    for (std::size_t i = begin; eight != 0; ++i, eight >>= 8U) {
+      near_[count] = &tile[i];
+      count += eight & 1U;
+    }
   }
-  near_.resize(count);
+  return std::span(near_).first(count);
 }
 
 float Matcher::LeastOfBest(int most) {

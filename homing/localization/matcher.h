@@ -68,6 +68,9 @@ class Matcher {
                                       std::int64_t last, const SeenSides& seen, double threshold);
 
  private:
+  // Stored fingerprints that are gone through at a time: what is noted of them stays at hand.
+  static constexpr std::size_t kTile = 256;
+
   // A pair that may reach the threshold.
   struct Candidate {
     const Fingerprint* stored = nullptr;
@@ -92,8 +95,8 @@ class Matcher {
   void Clear();
   void Scan(int number, const JourneyMap& map, std::int64_t first, std::int64_t last,
             const SeenSides& seen, double threshold);
-  // Which of `stored` have something that is seen at less than this squared distance.
-  void FindNear(std::span<const Fingerprint> stored, float reach);
+  // Those of at most kTile that have something that is seen at less than this squared distance.
+  std::span<const Fingerprint* const> FindNear(std::span<const Fingerprint> tile, float reach);
   // Over all steps.
   void ScanAll(std::span<const JourneyRef> journeys, const SeenSides& seen, double threshold);
   // The P_T that the `most`-th landmark has at least, as far as bounds tell; once a scan.
@@ -103,9 +106,8 @@ class Matcher {
 
   std::vector<std::pair<DeviationModel, std::unique_ptr<const SurvivalBound>>> bounds_;
   std::vector<SeenPlace> all_seen_;
-  // By stored fingerprint, the squared distance of the nearest that is seen.
-  std::vector<float> nearest_;
-  std::vector<std::uint32_t> near_;
+  // Of a tile.
+  std::array<const Fingerprint*, kTile> near_;
   std::vector<Candidate> candidates_;
   // What candidates say of their landmark.
   struct KnownLandmark {
