@@ -25,16 +25,24 @@ bool IsRaw(FrameEncoding encoding) {
          encoding == FrameEncoding::kBgr8;
 }
 
-absl::Status CheckSide(int value, int min, int max, const std::string& field) {
+// A field's name: of what holds it, and its own.
+struct FieldName {
+  const std::string& holder;
+  const char* own;
+  std::string ToString() const { return absl::StrCat(holder, own); }
+};
+
+absl::Status CheckSide(int value, int min, int max, const FieldName& field) {
   if (value >= min && value <= max) return absl::OkStatus();
   return absl::InvalidArgumentError(
-      absl::StrCat(field, " is ", value, ": must be ", min, " to ", max, " px"));
+      absl::StrCat(field.ToString(), " is ", value, ": must be ", min, " to ", max, " px"));
 }
 
-absl::Status CheckColumn(const Column& column, int size, const std::string& field) {
+absl::Status CheckColumn(const Column& column, int size, const FieldName& field) {
   if (column.size() != size) {
-    return absl::InvalidArgumentError(absl::StrCat(
-        field, " has ", column.size(), " entries: must have as many as start_x, ", size));
+    return absl::InvalidArgumentError(absl::StrCat(field.ToString(), " has ", column.size(),
+                                                   " entries: must have as many as start_x, ",
+                                                   size));
   }
   // Almost always all are: looked at without a branch for each.
   std::int32_t beyond = 0;
@@ -43,7 +51,7 @@ absl::Status CheckColumn(const Column& column, int size, const std::string& fiel
   }
   for (int i = 0; beyond != 0 && i < size; ++i) {
     if (!(std::abs(column[i]) <= kMaxCoordinate)) {
-      return absl::InvalidArgumentError(absl::StrCat(field, "[", i, "] is ", column[i],
+      return absl::InvalidArgumentError(absl::StrCat(field.ToString(), "[", i, "] is ", column[i],
                                                      ": must be finite and at most ",
                                                      kMaxCoordinate, " px from the origin"));
     }
@@ -89,10 +97,8 @@ absl::StatusOr<Frame> FromProto(const v1::Frame& message, const std::string& fie
   HOMING_ASSIGN_OR_RETURN(frame.encoding,
                           FromProto(message.encoding(), absl::StrCat(field, ".encoding")));
   const int min = IsRaw(frame.encoding) ? 1 : 0;
-  HOMING_RETURN_IF_ERROR(
-      CheckSide(message.width(), min, limits.max_side_px, absl::StrCat(field, ".width")));
-  HOMING_RETURN_IF_ERROR(
-      CheckSide(message.height(), min, limits.max_side_px, absl::StrCat(field, ".height")));
+  HOMING_RETURN_IF_ERROR(CheckSide(message.width(), min, limits.max_side_px, {field, ".width"}));
+  HOMING_RETURN_IF_ERROR(CheckSide(message.height(), min, limits.max_side_px, {field, ".height"}));
   if (message.data().empty()) {
     return absl::InvalidArgumentError(
         absl::StrCat(field, ".data is empty: must hold the image's bytes"));
@@ -105,19 +111,17 @@ absl::StatusOr<Frame> FromProto(const v1::Frame& message, const std::string& fie
 
 absl::StatusOr<FlowField> FromProto(const v1::FlowVectors& message, const std::string& field,
                                     const WireLimits& limits) {
-  HOMING_RETURN_IF_ERROR(
-      CheckSide(message.width(), 1, limits.max_side_px, absl::StrCat(field, ".width")));
-  HOMING_RETURN_IF_ERROR(
-      CheckSide(message.height(), 1, limits.max_side_px, absl::StrCat(field, ".height")));
+  HOMING_RETURN_IF_ERROR(CheckSide(message.width(), 1, limits.max_side_px, {field, ".width"}));
+  HOMING_RETURN_IF_ERROR(CheckSide(message.height(), 1, limits.max_side_px, {field, ".height"}));
   const int size = message.start_x_size();
   if (size > limits.max_vectors) {
     return LimitError("VECTORS", absl::StrCat(field, ".start_x has ", size,
                                               " entries: must have at most ", limits.max_vectors));
   }
-  HOMING_RETURN_IF_ERROR(CheckColumn(message.start_x(), size, absl::StrCat(field, ".start_x")));
-  HOMING_RETURN_IF_ERROR(CheckColumn(message.start_y(), size, absl::StrCat(field, ".start_y")));
-  HOMING_RETURN_IF_ERROR(CheckColumn(message.end_x(), size, absl::StrCat(field, ".end_x")));
-  HOMING_RETURN_IF_ERROR(CheckColumn(message.end_y(), size, absl::StrCat(field, ".end_y")));
+  HOMING_RETURN_IF_ERROR(CheckColumn(message.start_x(), size, {field, ".start_x"}));
+  HOMING_RETURN_IF_ERROR(CheckColumn(message.start_y(), size, {field, ".start_y"}));
+  HOMING_RETURN_IF_ERROR(CheckColumn(message.end_x(), size, {field, ".end_x"}));
+  HOMING_RETURN_IF_ERROR(CheckColumn(message.end_y(), size, {field, ".end_y"}));
   FlowField flow;
   flow.width = message.width();
   flow.height = message.height();
