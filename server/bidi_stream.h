@@ -108,6 +108,8 @@ class BidiStream : public grpc::ServerBidiReactor<Request, Response>,
     watch_.Moved();
     const std::lock_guard lock(mutex_);
     writing_ = false;
+    spare_ = std::move(writes_.front());
+    spare_.Clear();
     writes_.pop_front();
     if (!ok) {
       Break();
@@ -137,6 +139,11 @@ class BidiStream : public grpc::ServerBidiReactor<Request, Response>,
   // Let go of what belongs to the stream.
   virtual void HandleDone() {}
 
+  // An empty answer to fill in: one that was sent, whose memory is used again.
+  Response TakeSpare() {
+    const std::lock_guard lock(mutex_);
+    return std::exchange(spare_, Response());
+  }
   // Any thread.
   void Answer(Response response) {
     const std::lock_guard lock(mutex_);
@@ -254,6 +261,7 @@ class BidiStream : public grpc::ServerBidiReactor<Request, Response>,
   std::mutex mutex_;
   std::shared_ptr<Request> incoming_;
   std::deque<Response> writes_;
+  Response spare_;
   // Sizes of the requests read and not yet answered, bytes.
   std::deque<std::size_t> unanswered_;
   std::size_t unanswered_bytes_ = 0;

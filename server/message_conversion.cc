@@ -7,16 +7,14 @@
 namespace homing::server {
 namespace {
 
-v1::Match EncodeMatch(const std::string& journey, const Match& match) {
-  v1::Match message;
-  message.set_journey(journey);
-  message.set_landmark(match.landmark);
-  message.set_step(match.step);
-  message.set_side(wire::ToProto(match.side));
-  message.set_delta(match.similarity.delta);
-  message.set_p(match.similarity.p);
-  message.set_p_t(match.similarity.p_t);
-  return message;
+void EncodeMatch(const std::string& journey, const Match& match, v1::Match* message) {
+  message->set_journey(journey);
+  message->set_landmark(match.landmark);
+  message->set_step(match.step);
+  message->set_side(wire::ToProto(match.side));
+  message->set_delta(match.similarity.delta);
+  message->set_p(match.similarity.p);
+  message->set_p_t(match.similarity.p_t);
 }
 
 void EncodePosition(const Position& position, const HomingSession& session,
@@ -137,24 +135,22 @@ v1::RecordJourneyResponse EncodeRecordingAnswer(const RecordingAnswer& answer) {
   return message;
 }
 
-v1::LocalizeResponse EncodeLocalization(const Localization& localization,
-                                        const HomingSession& session) {
-  v1::LocalizeResponse message;
-  message.set_sequence(localization.sequence);
+void EncodeLocalization(const Localization& localization, const HomingSession& session,
+                        v1::LocalizeResponse* message) {
+  message->set_sequence(localization.sequence);
   if (localization.has_flow) {
-    message.set_motion(wire::ToProto(localization.motion));
+    message->set_motion(wire::ToProto(localization.motion));
   }
-  EncodePosition(localization.position, session, &message);
+  EncodePosition(localization.position, session, message);
   if (localization.landmark) {
-    message.set_landmark(*localization.landmark);
+    message->set_landmark(*localization.landmark);
   }
   if (localization.similarity) {
-    message.set_similarity(*localization.similarity);
+    message->set_similarity(*localization.similarity);
   }
   for (const Match& match : localization.matches) {
-    *message.add_matches() = EncodeMatch(session.journey_name(match.journey), match);
+    EncodeMatch(session.journey_name(match.journey), match, message->add_matches());
   }
-  return message;
 }
 
 v1::MatchLandmarksResponse EncodeQueryResult(const LandmarkQueryResult& result) {
@@ -163,7 +159,7 @@ v1::MatchLandmarksResponse EncodeQueryResult(const LandmarkQueryResult& result) 
     message.set_motion(wire::ToProto(*result.motion));
   }
   for (const NamedMatch& match : result.matches) {
-    *message.add_matches() = EncodeMatch(match.journey, match.match);
+    EncodeMatch(match.journey, match.match, message.add_matches());
   }
   for (const Side side : {Side::kLeft, Side::kRight}) {
     for (const SeenLandmark& seen : result.seen[static_cast<std::size_t>(side)]) {

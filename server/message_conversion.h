@@ -19,8 +19,9 @@ namespace homing::server {
 
 v1::Journey EncodeJourneyRecord(const storage::JourneyRecord& record);
 v1::RecordJourneyResponse EncodeRecordingAnswer(const RecordingAnswer& answer);
-v1::LocalizeResponse EncodeLocalization(const Localization& localization,
-                                        const HomingSession& session);
+// Fills in an empty answer.
+void EncodeLocalization(const Localization& localization, const HomingSession& session,
+                        v1::LocalizeResponse* message);
 v1::MatchLandmarksResponse EncodeQueryResult(const LandmarkQueryResult& result);
 v1::DeviationModel EncodeModel(const storage::StoredModel& model);
 

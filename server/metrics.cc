@@ -50,11 +50,21 @@ void Metrics::CallEnded(Rpc rpc, const absl::Status& status, double seconds) {
 }
 
 void Metrics::ObservationReceived(Rpc rpc) {
-  state_->observations.Add({{"grpc_method", MethodOf(rpc)}}).Increment();
+  state_->observations_of
+      .Of(static_cast<std::size_t>(rpc), state_->observations,
+          [rpc] {
+            return prometheus::Labels{{"grpc_method", MethodOf(rpc)}};
+          })
+      .Increment();
 }
 
 void Metrics::ObservationLocalized(Outcome outcome, double seconds) {
-  state_->outcomes.Add({{"outcome", NameOf(outcome)}}).Increment();
+  state_->outcomes_of
+      .Of(static_cast<std::size_t>(outcome), state_->outcomes,
+          [outcome] {
+            return prometheus::Labels{{"outcome", NameOf(outcome)}};
+          })
+      .Increment();
   state_->localize_seconds.Observe(seconds);
 }
 

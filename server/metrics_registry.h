@@ -8,12 +8,16 @@
 #include <prometheus/histogram.h>
 #include <prometheus/registry.h>
 
+#include <array>
+#include <atomic>
+#include <cstddef>
 #include <functional>
 #include <memory>
 #include <mutex>
 #include <string>
 #include <vector>
 
+#include "server/access/rpc.h"
 #include "server/metrics.h"
 
 namespace homing::server {
@@ -42,6 +46,26 @@ class LiveGauges final : public prometheus::Collectable {
   std::vector<Entry> entries_;
 };
 
+// Counters of one family that are wanted with every observation: each is looked up by its labels
+// once. Thread-safe.
+template <std::size_t count>
+class KnownCounters {
+ public:
+  template <typename MakeLabels>
+  prometheus::Counter& Of(std::size_t index, prometheus::Family<prometheus::Counter>& family,
+                          MakeLabels make_labels) {
+    prometheus::Counter* counter = known_[index].load(std::memory_order_acquire);
+    if (counter == nullptr) {
+      counter = &family.Add(make_labels());
+      known_[index].store(counter, std::memory_order_release);
+    }
+    return *counter;
+  }
+
+ private:
+  std::array<std::atomic<prometheus::Counter*>, count> known_{};
+};
+
 struct Metrics::State {
   std::shared_ptr<prometheus::Registry> registry = std::make_shared<prometheus::Registry>();
   std::shared_ptr<LiveGauges> gauges = std::make_shared<LiveGauges>();
@@ -56,6 +80,9 @@ struct Metrics::State {
   prometheus::Counter& steps;
   prometheus::Histogram& localize_seconds;
   prometheus::Histogram& commit_seconds;
+  KnownCounters<kRpcs.size()> observations_of;
+  // By Outcome, which counts from 1.
+  KnownCounters<4> outcomes_of;
 
   State();
 };
