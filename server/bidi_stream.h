@@ -7,11 +7,13 @@
 
 #include <atomic>
 #include <chrono>
-#include <deque>
+#include <cstddef>
+#include <list>
 #include <memory>
 #include <mutex>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include "server/incoming_call.h"
 #include "server/service_core.h"
@@ -108,9 +110,9 @@ class BidiStream : public grpc::ServerBidiReactor<Request, Response>,
     watch_.Moved();
     const std::lock_guard lock(mutex_);
     writing_ = false;
-    spare_ = std::move(writes_.front());
-    spare_.Clear();
-    writes_.pop_front();
+    spare_.clear();
+    spare_.splice(spare_.end(), writes_, writes_.begin());
+    spare_.front().Clear();
     if (!ok) {
       Break();
     }
@@ -139,18 +141,17 @@ class BidiStream : public grpc::ServerBidiReactor<Request, Response>,
   // Let go of what belongs to the stream.
   virtual void HandleDone() {}
 
-  // An empty answer to fill in: one that was sent, whose memory is used again.
-  Response TakeSpare() {
-    const std::lock_guard lock(mutex_);
-    return std::exchange(spare_, Response());
-  }
-  // Any thread.
-  void Answer(Response response) {
+  // Any thread. `fill` is given an empty answer: one that was sent, whose memory is used again. It
+  // is not called if no answer can be given any more.
+  template <typename Fill>
+  void Answer(Fill fill) {
     const std::lock_guard lock(mutex_);
     if (end_status_ || finished_) {
       return;
     }
-    writes_.push_back(std::move(response));
+    if (spare_.empty()) spare_.emplace_back();
+    writes_.splice(writes_.end(), spare_, spare_.begin());
+    fill(&writes_.back());
     Settle();
     WriteNext();
     ReadNext();
@@ -229,7 +230,7 @@ class BidiStream : public grpc::ServerBidiReactor<Request, Response>,
   void Settle() {
     if (!unanswered_.empty()) {
       unanswered_bytes_ -= unanswered_.front();
-      unanswered_.pop_front();
+      unanswered_.erase(unanswered_.begin());
     }
   }
 
@@ -239,7 +240,7 @@ class BidiStream : public grpc::ServerBidiReactor<Request, Response>,
       end_status_ = absl::CancelledError("the client went away");
     }
     if (!writes_.empty()) {
-      writes_.erase(writes_.begin() + (writing_ ? 1 : 0), writes_.end());
+      writes_.resize(writing_ ? 1 : 0);
     }
   }
 
@@ -260,10 +261,12 @@ class BidiStream : public grpc::ServerBidiReactor<Request, Response>,
 
   std::mutex mutex_;
   std::shared_ptr<Request> incoming_;
-  std::deque<Response> writes_;
-  Response spare_;
+  // Lists, and a vector of few: an empty deque takes 600 bytes, and streams are many.
+  std::list<Response> writes_;
+  // At most one, empty: it was sent, and its memory is used again.
+  std::list<Response> spare_;
   // Sizes of the requests read and not yet answered, bytes.
-  std::deque<std::size_t> unanswered_;
+  std::vector<std::size_t> unanswered_;
   std::size_t unanswered_bytes_ = 0;
   std::optional<absl::Status> end_status_;
   std::atomic<bool> quick_ = false;

@@ -1,7 +1,5 @@
 #include "server/localize_stream.h"
 
-#include <utility>
-
 #include "homing/status_macros.h"
 #include "server/message_conversion.h"
 
@@ -43,9 +41,8 @@ absl::Status LocalizeStream::Localize(const v1::Observation& observation) {
   HOMING_ASSIGN_OR_RETURN(const Localization localization, session_->Localize(decoded));
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin;
   core()->metrics->ObservationLocalized(localization.position.outcome, elapsed.count());
-  v1::LocalizeResponse answer = TakeSpare();
-  EncodeLocalization(localization, *session_, &answer);
-  Answer(std::move(answer));
+  Answer(
+      [&](v1::LocalizeResponse* answer) { EncodeLocalization(localization, *session_, answer); });
   return absl::OkStatus();
 }
 

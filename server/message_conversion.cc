@@ -114,25 +114,23 @@ v1::Journey EncodeJourneyRecord(const storage::JourneyRecord& record) {
   return message;
 }
 
-v1::RecordJourneyResponse EncodeRecordingAnswer(const RecordingAnswer& answer) {
-  v1::RecordJourneyResponse message;
-  message.set_next_sequence(answer.next_sequence);
+void EncodeRecordingAnswer(const RecordingAnswer& answer, v1::RecordJourneyResponse* message) {
+  message->set_next_sequence(answer.next_sequence);
   if (answer.sequence) {
-    message.set_sequence(*answer.sequence);
+    message->set_sequence(*answer.sequence);
   }
   if (answer.resend_from) {
-    message.set_resend_from(*answer.resend_from);
+    message->set_resend_from(*answer.resend_from);
   }
   if (answer.step) {
-    message.set_step(answer.step->step);
-    message.set_motion(wire::ToProto(answer.step->motion));
+    message->set_step(answer.step->step);
+    message->set_motion(wire::ToProto(answer.step->motion));
     for (const RecordedFingerprint& f : answer.step->fingerprints) {
-      v1::RecordedLandmark* landmark = message.add_landmarks();
+      v1::RecordedLandmark* landmark = message->add_landmarks();
       *landmark->mutable_fingerprint() = wire::ToProto(f.side, f.fingerprint);
       landmark->set_spread(f.spread);
     }
   }
-  return message;
 }
 
 void EncodeLocalization(const Localization& localization, const HomingSession& session,

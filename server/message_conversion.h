@@ -18,8 +18,8 @@
 namespace homing::server {
 
 v1::Journey EncodeJourneyRecord(const storage::JourneyRecord& record);
-v1::RecordJourneyResponse EncodeRecordingAnswer(const RecordingAnswer& answer);
-// Fills in an empty answer.
+// These two fill in an empty answer.
+void EncodeRecordingAnswer(const RecordingAnswer& answer, v1::RecordJourneyResponse* message);
 void EncodeLocalization(const Localization& localization, const HomingSession& session,
                         v1::LocalizeResponse* message);
 v1::MatchLandmarksResponse EncodeQueryResult(const LandmarkQueryResult& result);

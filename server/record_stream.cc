@@ -38,7 +38,8 @@ absl::Status RecordStream::Begin(const v1::RecordingConfig& config) {
   RecordingListener listener;
   listener.answer = [weak](const RecordingAnswer& answer) {
     if (const auto stream = std::static_pointer_cast<RecordStream>(weak.lock())) {
-      stream->Answer(EncodeRecordingAnswer(answer));
+      stream->Answer(
+          [&](v1::RecordJourneyResponse* message) { EncodeRecordingAnswer(answer, message); });
     }
   };
   listener.end = [weak](const absl::Status& status) {

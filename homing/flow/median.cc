@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <limits>
 #include <numeric>
-#include <vector>
 
+#include "absl/container/fixed_array.h"
 #include "homing/vector_clones.h"
 
 namespace homing {
@@ -56,7 +56,7 @@ std::int32_t GreatestUpTo(const std::int32_t* keys, std::size_t size, std::int32
 
 // Of the keys the least that has more than half of them at or under it, by bisection: until one
 // side of the middle has just those.
-std::int32_t MedianOf(const std::vector<std::int32_t>& keys) {
+std::int32_t MedianOf(std::span<const std::int32_t> keys) {
   const auto half = static_cast<std::int32_t>(keys.size() / 2);
   std::int32_t low = 0;
   std::int32_t high = 0;
@@ -75,6 +75,9 @@ std::int32_t MedianOf(const std::vector<std::int32_t>& keys) {
   }
   return low;
 }
+
+// Of so many no memory is asked for.
+constexpr std::size_t kUsual = 1024;
 
 // Sixteen lanes of 16 bits: no count of so many outgrows them.
 constexpr std::size_t kCounted = 32768;
@@ -102,9 +105,9 @@ float Median(std::span<const float> values) {
   if (values.empty()) {
     return 0;
   }
-  std::vector<std::int32_t> keys(values.size());
+  absl::FixedArray<std::int32_t, kUsual> keys(values.size());
   RankKeys(values.data(), values.size(), keys.data());
-  const std::int32_t key = MedianOf(keys);
+  const std::int32_t key = MedianOf({keys.data(), keys.size()});
   return std::bit_cast<float>(key ^ ((key >> 31) & std::numeric_limits<std::int32_t>::max()));
 }
 
