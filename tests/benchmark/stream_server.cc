@@ -39,12 +39,12 @@ class EchoStream final
 
  protected:
   absl::Status Handle(const v1::RecordJourneyRequest& request) override {
-    v1::RecordJourneyResponse response;
-    if (request.has_observation()) {
-      response.set_sequence(request.observation().sequence());
-      response.set_next_sequence(request.observation().sequence() + 1);
-    }
-    Answer(std::move(response));
+    Answer([&request](v1::RecordJourneyResponse* response) {
+      if (request.has_observation()) {
+        response->set_sequence(request.observation().sequence());
+        response->set_next_sequence(request.observation().sequence() + 1);
+      }
+    });
     return absl::OkStatus();
   }
 };
