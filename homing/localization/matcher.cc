@@ -104,8 +104,10 @@ void Matcher::Scan(int number, const JourneyMap& map, std::int64_t first, std::i
   if (known_.size() < landmark_count_) known_.resize(landmark_count_);
   if (last < first) return;
   std::span<const Fingerprint> all(map.fingerprints(first).begin(), map.fingerprints(last).end());
-  for (; !all.empty(); all = all.subspan(std::min(all.size(), kTile))) {
-    for (const Fingerprint* const near : FindNear(all.first(std::min(all.size(), kTile)), reach)) {
+  while (!all.empty()) {
+    const std::span<const Fingerprint> tile = all.first(std::min(all.size(), kTile));
+    all = all.subspan(tile.size());
+    for (const Fingerprint* const near : FindNear(tile, reach)) {
       const Fingerprint& stored = *near;
       for (const SeenPlace& place : all_seen_) {
         const float squared = SquaredDistance(stored, place.x, place.y);

@@ -61,7 +61,7 @@ std::string LoadTable(const Results& results) {
       "| load | p99, ms | sent late | dropped | KiB a stream |\n|---|---|---|---|---|\n";
   bool empty = true;
   for (const std::string run :
-       {"echo_1000", "record_1000", "record_1000_tls", "localize_1000", "localize_1000_at_once"}) {
+       {"echo_1000", "record_1000", "record_1000_tls", "localize_1000", "localize_1000_ramp"}) {
     const auto& counters = results.Of(run).counters;
     if (counters.empty()) continue;
     empty = false;
@@ -73,8 +73,8 @@ std::string LoadTable(const Results& results) {
                : absl::StrCat(
                      "\n## Many robots\n\n`echo_1000` is an echo on the same "
                      "reactor, threads and pool, under the load of `record_1000`. The robots of "
-                     "`localize_1000` set out within 20 s, those of `localize_1000_at_once` in the "
-                     "same instant.\n\n",
+                     "`localize_1000` set out in the same instant, those of `localize_1000_ramp` "
+                     "within 20 s.\n\n",
                      text);
 }
 

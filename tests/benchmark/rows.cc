@@ -147,8 +147,7 @@ std::vector<Row> AllRows(const Results& results) {
     load("record_1000" + tls, "dropped", 0, "observations not acknowledged");
     load("record_1000" + tls, "kib_a_stream", tls.empty() ? 64 : 160, "server's memory a stream");
   }
-  load("localize_1000", "p99_ms", 50,
-       "1,000 robots localising at 10 a second, 2,000 steps; they set out within 20 s");
+  load("localize_1000", "p99_ms", 50, "1,000 robots localising at 10 a second, 2,000 steps");
   load("localize_1000", "dropped", 0, "observations not answered");
   load("start", "serving_s", 0.5, "start to SERVING with 10,000 journeys of 1,000 steps");
   return table.Take();

@@ -10,7 +10,7 @@ root=$PWD
 quick=
 robots=1000
 seconds=30
-# Localising, a robot costs more until it has found its place: the fleet sets out within so many seconds.
+# Localising, a robot costs more until it has found its place: once more with a fleet that sets out within so many seconds.
 ramp=20
 repeats=5
 report=docs/performance.md
@@ -105,10 +105,10 @@ while [ "$repeat" -lt "$repeats" ]; do
   stop_server
   start_server shared
   homing bench --prepare --journeys 10 --steps 2000
-  load localize_1000 "" --localize --journeys 10 --steps 2000 --ramp "$ramp"
+  load localize_1000 "" --localize --journeys 10 --steps 2000
   stop_server
   start_server shared
-  load localize_1000_at_once "" --localize --journeys 10 --steps 2000
+  load localize_1000_ramp "" --localize --journeys 10 --steps 2000 --ramp "$ramp"
   stop_server
   rm -f "$work"/plain* "$work"/tls*
 done
