@@ -18,7 +18,7 @@ if [ "${1:-}" = --quick ]; then
   quick=--quick
   robots=100
   seconds=5
-  ramp=2
+  ramp=
   repeats=2
   report=build/performance/performance.md
 fi
@@ -107,9 +107,11 @@ while [ "$repeat" -lt "$repeats" ]; do
   homing bench --prepare --journeys 10 --steps 2000
   load localize_1000 "" --localize --journeys 10 --steps 2000
   stop_server
-  start_server shared
-  load localize_1000_ramp "" --localize --journeys 10 --steps 2000 --ramp "$ramp"
-  stop_server
+  if [ -n "$ramp" ]; then
+    start_server shared
+    load localize_1000_ramp "" --localize --journeys 10 --steps 2000 --ramp "$ramp"
+    stop_server
+  fi
   rm -f "$work"/plain* "$work"/tls*
 done
 
