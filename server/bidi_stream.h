@@ -99,11 +99,16 @@ class BidiStream : public grpc::ServerBidiReactor<Request, Response>,
         return;
       }
     }
+    const bool unhurried = std::chrono::steady_clock::now() - read_begin_ > kUnhurried;
     // Nothing is read meanwhile: what came next could overtake it.
     strand_->RunOrPost(std::move(task));
     const std::lock_guard lock(mutex_);
     reading_ = false;
-    ReadNext();
+    // The next is not there yet. Asked for after the answer, it lets gRPC put the window update
+    // into the answer's packet; asked for before, there is a packet of its own.
+    if (!unhurried || unanswered_.empty()) {
+      ReadNext();
+    }
   }
 
   void OnWriteDone(bool ok) override {
@@ -185,6 +190,8 @@ class BidiStream : public grpc::ServerBidiReactor<Request, Response>,
   // longer. To wake another thread costs as much as to handle many a message.
   static constexpr std::size_t kHereBytes = 65536;
   static constexpr std::chrono::microseconds kQuick{1000};
+  // A stream whose message was awaited for longer: longer than most answers take.
+  static constexpr std::chrono::milliseconds kUnhurried{5};
 
   void HandleGuarded(const Request& request) {
     {
@@ -210,6 +217,7 @@ class BidiStream : public grpc::ServerBidiReactor<Request, Response>,
       return;
     }
     reading_ = true;
+    read_begin_ = std::chrono::steady_clock::now();
     incoming_ = std::make_shared<Request>();
     this->StartRead(incoming_.get());
   }
@@ -269,6 +277,7 @@ class BidiStream : public grpc::ServerBidiReactor<Request, Response>,
   std::vector<std::size_t> unanswered_;
   std::size_t unanswered_bytes_ = 0;
   std::optional<absl::Status> end_status_;
+  std::chrono::steady_clock::time_point read_begin_;
   std::atomic<bool> quick_ = false;
   bool reading_ = false;
   bool writing_ = false;

@@ -43,8 +43,9 @@ absl::StatusOr<Http2Endpoint> Http2Endpoint::Make(const ConnectionOptions& optio
   endpoint.tls_.reset(SSL_CTX_new(TLS_client_method()), SSL_CTX_free);
   SSL_CTX* const tls = endpoint.tls_.get();
   SSL_CTX_set_verify(tls, SSL_VERIFY_PEER, nullptr);
-  SSL_CTX_set_mode(tls, SSL_MODE_ENABLE_PARTIAL_WRITE | SSL_MODE_ACCEPT_MOVING_WRITE_BUFFER |
-                            SSL_MODE_RELEASE_BUFFERS);
+  SSL_CTX_set_mode(tls, SSL_MODE_ENABLE_PARTIAL_WRITE | SSL_MODE_ACCEPT_MOVING_WRITE_BUFFER);
+  // All that has come by one call; else each record takes two, one for its header.
+  SSL_CTX_set_read_ahead(tls, 1);
   constexpr std::array<unsigned char, 3> kHttp2{2, 'h', '2'};
   SSL_CTX_set_alpn_protos(tls, kHttp2.data(), kHttp2.size());
   const bool trusted = options.tls_ca.empty()

@@ -199,6 +199,26 @@ TEST_F(LifecycleTest, ManyStreamsAtOnceEachKeepTheirOrder) {
   }
 }
 
+TEST_F(LifecycleTest, AStreamThatTookItsTimeMaySendManyAtOnce) {
+  Recording recording(journeys_.get(), kJourney);
+  constexpr int kSlow = 4;
+  constexpr int kPlaces = 40;
+  // Each awaited for long: the next is asked for only after the answer.
+  for (int place = 0; place < kSlow; ++place) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    EXPECT_EQ(recording.Record(test::FlowAt(place)).sequence(), place);
+  }
+  std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  for (int place = kSlow; place < kPlaces; ++place) {
+    EXPECT_TRUE(recording.Send(test::FlowAt(place)));
+  }
+  EXPECT_THAT(recording.Close(), IsGrpcOk());
+  ASSERT_EQ(recording.answers().size(), std::size_t{kPlaces} + 1);
+  for (int i = 0; i < kPlaces; ++i) {
+    EXPECT_EQ(recording.answers()[static_cast<std::size_t>(i) + 1].sequence(), i);
+  }
+}
+
 TEST_F(LifecycleTest, ASecondServerOnTheSameAddressFailsToStart) {
   ServerOptions options;
   options.listen = server_->address();
