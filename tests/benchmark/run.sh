@@ -133,6 +133,6 @@ fi
 
 status=0
 "$build/tests/benchmark/homing_benchmark" $quick --load "$work/load" --report "$report" \
-  --command "sh tests/benchmark/run.sh $quick" >"$work/rows" || status=$?
+  --command "sh tests/benchmark/run.sh${quick:+ $quick}" >"$work/rows" || status=$?
 cat "$work/rows"
 exit "$status"
