@@ -78,6 +78,7 @@ class BidiStream : public grpc::ServerBidiReactor<Request, Response>,
   void OnReadDone(bool ok) override {
     watch_.Moved();
     WorkerPool::Task task;
+    bool unhurried = false;
     {
       const std::lock_guard lock(mutex_);
       if (!ok) {
@@ -92,6 +93,9 @@ class BidiStream : public grpc::ServerBidiReactor<Request, Response>,
       task = [self = this->shared_from_this(), request = std::move(incoming_)] {
         self->HandleGuarded(*request);
       };
+      const bool awaited = std::chrono::steady_clock::now() - read_begin_ > kUnhurried;
+      // Not the first of a burst: after that, more is there.
+      unhurried = std::exchange(awaited_, awaited) && awaited;
       if (!quick_ || bytes > kHereBytes) {
         strand_->Post(std::move(task));
         reading_ = false;
@@ -99,7 +103,6 @@ class BidiStream : public grpc::ServerBidiReactor<Request, Response>,
         return;
       }
     }
-    const bool unhurried = std::chrono::steady_clock::now() - read_begin_ > kUnhurried;
     // Nothing is read meanwhile: what came next could overtake it.
     strand_->RunOrPost(std::move(task));
     const std::lock_guard lock(mutex_);
@@ -190,7 +193,7 @@ class BidiStream : public grpc::ServerBidiReactor<Request, Response>,
   // longer. To wake another thread costs as much as to handle many a message.
   static constexpr std::size_t kHereBytes = 65536;
   static constexpr std::chrono::microseconds kQuick{1000};
-  // A stream whose message was awaited for longer: longer than most answers take.
+  // A stream whose messages, two in a row, were awaited for longer: longer than most answers take.
   static constexpr std::chrono::milliseconds kUnhurried{5};
 
   void HandleGuarded(const Request& request) {
@@ -278,6 +281,8 @@ class BidiStream : public grpc::ServerBidiReactor<Request, Response>,
   std::size_t unanswered_bytes_ = 0;
   std::optional<absl::Status> end_status_;
   std::chrono::steady_clock::time_point read_begin_;
+  // The last message: for longer than kUnhurried.
+  bool awaited_ = false;
   std::atomic<bool> quick_ = false;
   bool reading_ = false;
   bool writing_ = false;
