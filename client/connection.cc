@@ -13,7 +13,7 @@
 #include "client/backoff.h"
 #include "client/rpc_status.h"
 #include "client/token_interceptor.h"
-#include "homing/status_macros.h"
+#include "homing/base/status_macros.h"
 
 namespace homing::client {
 namespace {

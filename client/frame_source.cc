@@ -7,7 +7,7 @@
 #include "client/image_folder.h"
 #include "client/opencv_readers.h"
 #include "client/simulated_source.h"
-#include "homing/status_macros.h"
+#include "homing/base/status_macros.h"
 
 namespace homing::client {
 namespace {

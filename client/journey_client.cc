@@ -5,7 +5,7 @@
 #include "client/chunk_file.h"
 #include "client/rpc_status.h"
 #include "client/unary_call.h"
-#include "homing/status_macros.h"
+#include "homing/base/status_macros.h"
 
 namespace homing::client {
 namespace {

@@ -2,7 +2,7 @@
 
 #include "client/rpc_status.h"
 #include "client/unary_call.h"
-#include "homing/status_macros.h"
+#include "homing/base/status_macros.h"
 
 namespace homing::client {
 ModelClient::ModelClient(const Connection* connection, std::stop_token stop)

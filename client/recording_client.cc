@@ -5,7 +5,7 @@
 #include "absl/strings/str_cat.h"
 #include "client/exchange.h"
 #include "client/rpc_status.h"
-#include "homing/status_macros.h"
+#include "homing/base/status_macros.h"
 
 namespace homing::client {
 

@@ -1,6 +1,6 @@
 #include "client/simulated_source.h"
 
-#include "homing/status_macros.h"
+#include "homing/base/status_macros.h"
 
 namespace homing::client {
 namespace {

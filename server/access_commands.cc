@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "absl/strings/str_cat.h"
-#include "homing/status_macros.h"
+#include "homing/base/status_macros.h"
 #include "server/access/identity.h"
 #include "server/access/private_file.h"
 #include "server/access/token_book.h"

@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "absl/strings/str_cat.h"
-#include "homing/status_macros.h"
+#include "homing/base/status_macros.h"
 #include "server/journey_archive.h"
 #include "server/message_conversion.h"
 #include "server/session/error_reason.h"

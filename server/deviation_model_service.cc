@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "homing/status_macros.h"
+#include "homing/base/status_macros.h"
 #include "server/message_conversion.h"
 #include "server/page.h"
 #include "server/unary_call.h"

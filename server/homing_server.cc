@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "absl/strings/str_cat.h"
-#include "homing/status_macros.h"
+#include "homing/base/status_macros.h"
 #include "server/core_gauges.h"
 #include "server/deviation_model_service.h"
 #include "server/homing_service.h"

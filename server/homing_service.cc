@@ -1,6 +1,6 @@
 #include "server/homing_service.h"
 
-#include "homing/status_macros.h"
+#include "homing/base/status_macros.h"
 #include "server/localize_stream.h"
 #include "server/message_conversion.h"
 #include "server/unary_call.h"

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "absl/strings/str_cat.h"
-#include "homing/status_macros.h"
+#include "homing/base/status_macros.h"
 #include "server/session/error_reason.h"
 #include "server/status_conversion.h"
 

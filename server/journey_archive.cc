@@ -10,8 +10,8 @@
 
 #include "absl/status/status.h"
 #include "absl/strings/str_cat.h"
+#include "homing/base/status_macros.h"
 #include "homing/landmark/profile_code.h"
-#include "homing/status_macros.h"
 #include "homing/v1/journey_map.pb.h"
 #include "proto/wire/enum_conversion.h"
 #include "proto/wire/settings_conversion.h"

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "absl/strings/str_cat.h"
+#include "homing/base/status_macros.h"
 #include "homing/localization/aliasing.h"
 #include "homing/localization/position_filter.h"
-#include "homing/status_macros.h"
 #include "proto/wire/enum_conversion.h"
 #include "proto/wire/settings_conversion.h"
 #include "server/message_conversion.h"

@@ -1,6 +1,6 @@
 #include "server/journey_service.h"
 
-#include "homing/status_macros.h"
+#include "homing/base/status_macros.h"
 #include "server/archive_streams.h"
 #include "server/journey_requests.h"
 #include "server/message_conversion.h"

@@ -1,6 +1,6 @@
 #include "server/localize_stream.h"
 
-#include "homing/status_macros.h"
+#include "homing/base/status_macros.h"
 #include "server/message_conversion.h"
 
 namespace homing::server {

@@ -1,6 +1,6 @@
 #include "server/message_conversion.h"
 
-#include "homing/status_macros.h"
+#include "homing/base/status_macros.h"
 #include "proto/wire/enum_conversion.h"
 #include "proto/wire/settings_conversion.h"
 

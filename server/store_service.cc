@@ -4,7 +4,7 @@
 #include <memory>
 #include <string>
 
-#include "homing/status_macros.h"
+#include "homing/base/status_macros.h"
 #include "server/chunk_stream.h"
 
 namespace homing::server {

@@ -7,7 +7,7 @@
 #include <string>
 #include <utility>
 
-#include "homing/status_macros.h"
+#include "homing/base/status_macros.h"
 #include "server/access/key_pair.h"
 #include "server/status_conversion.h"
 

@@ -4,7 +4,7 @@
 
 #include <utility>
 
-#include "homing/status_macros.h"
+#include "homing/base/status_macros.h"
 
 namespace homing::storage {
 namespace {

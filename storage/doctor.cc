@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "absl/strings/str_cat.h"
-#include "homing/status_macros.h"
+#include "homing/base/status_macros.h"
 #include "storage/connection.h"
 #include "storage/journey_rows.h"
 #include "storage/journey_store.h"

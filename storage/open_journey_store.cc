@@ -2,7 +2,7 @@
 #include <algorithm>
 
 #include "absl/strings/str_cat.h"
-#include "homing/status_macros.h"
+#include "homing/base/status_macros.h"
 #include "storage/connection.h"
 #include "storage/journey_store.h"
 #include "storage/query_connections.h"

@@ -1,6 +1,6 @@
 #include "storage/query_connections.h"
 
-#include "homing/status_macros.h"
+#include "homing/base/status_macros.h"
 
 namespace homing::storage {
 

@@ -1,7 +1,7 @@
 #include "storage/sqlite_journey_store.h"
 
 #include "absl/strings/str_cat.h"
-#include "homing/status_macros.h"
+#include "homing/base/status_macros.h"
 #include "storage/backup.h"
 #include "storage/journey_rows.h"
 #include "storage/map_rows.h"

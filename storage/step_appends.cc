@@ -5,7 +5,7 @@
 #include <set>
 
 #include "absl/strings/str_cat.h"
-#include "homing/status_macros.h"
+#include "homing/base/status_macros.h"
 #include "storage/journey_rows.h"
 #include "storage/row_words.h"
 #include "storage/step_rows.h"

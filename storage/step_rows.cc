@@ -4,8 +4,8 @@
 #include <string>
 #include <utility>
 
+#include "homing/base/status_macros.h"
 #include "homing/landmark/profile_code.h"
-#include "homing/status_macros.h"
 #include "storage/step_id.h"
 
 namespace homing::storage {

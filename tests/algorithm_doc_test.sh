@@ -45,7 +45,7 @@ compare() {
 compare homing/flow/flow_tracker.h FlowOptions
 compare homing/landmark/landmark_options.h LandmarkOptions
 compare homing/similarity/deviation_training.h TrainingOptions
-compare homing/localization/matcher.h MatchOptions
+compare homing/matching/matcher.h MatchOptions
 compare homing/localization/position_filter.h PositionOptions
 compare homing/localization/step_likelihood.h LikelihoodOptions
 

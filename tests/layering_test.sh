@@ -108,7 +108,7 @@ check_tree() {
 # plant FILE TEXT: a clean scratch tree with this one file added must fail the check.
 plant() {
   rm -rf "$scratch/tree" && mkdir -p "$scratch/tree/homing/image" "$scratch/tree/$(dirname "$1")"
-  echo '#include "homing/status_macros.h"' >"$scratch/tree/homing/image/frame.h"
+  echo '#include "homing/base/status_macros.h"' >"$scratch/tree/homing/image/frame.h"
   (check_tree "$scratch/tree") >/dev/null || { echo "self-test: the clean tree fails"; planted_bad=1; }
   printf '%b\n' "$2" >"$scratch/tree/$1"
   if (check_tree "$scratch/tree") >/dev/null; then
@@ -123,7 +123,7 @@ self_test() {
   planted_bad=0
   plant homing/image/a.cc '#include "homing/flow/camera.h"'
   plant homing/flow/a.h '#include "homing/journey/journey_map.h"'
-  plant homing/journey/a.cc '#include "homing/localization/matcher.h"'
+  plant homing/journey/a.cc '#include "homing/matching/matcher.h"'
   plant homing/journey/a.cc '#include "storage/journey_store.h"'
   plant homing/journey/a.cc '#include "homing/v1/types.pb.h"'
   plant homing/journey/a.cc '#include <grpcpp/grpcpp.h>'

@@ -4,7 +4,7 @@
 #include "absl/strings/str_format.h"
 #include "client/command/commands.h"
 #include "client/load/load_run.h"
-#include "homing/status_macros.h"
+#include "homing/base/status_macros.h"
 
 namespace homing::client {
 namespace {

@@ -10,8 +10,8 @@
 #include "client/journey_client.h"
 #include "client/picture/flow_picture.h"
 #include "client/picture/journey_strip.h"
+#include "homing/base/status_macros.h"
 #include "homing/flow/flow_tracker.h"
-#include "homing/status_macros.h"
 #include "proto/wire/enum_conversion.h"
 
 namespace homing::client {

@@ -11,7 +11,7 @@
 #include "client/command/evaluation.h"
 #include "client/command/json_line.h"
 #include "client/picture/position_picture.h"
-#include "homing/status_macros.h"
+#include "homing/base/status_macros.h"
 
 namespace homing::client {
 namespace {

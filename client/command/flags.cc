@@ -10,7 +10,7 @@
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_split.h"
 #include "client/frame_source.h"
-#include "homing/status_macros.h"
+#include "homing/base/status_macros.h"
 #include "proto/wire/settings_conversion.h"
 
 namespace homing::client {

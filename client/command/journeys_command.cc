@@ -10,7 +10,7 @@
 #include "client/command/json_line.h"
 #include "client/command/output_file.h"
 #include "client/journey_client.h"
-#include "homing/status_macros.h"
+#include "homing/base/status_macros.h"
 
 namespace homing::client {
 namespace {

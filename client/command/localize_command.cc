@@ -11,7 +11,7 @@
 #include "client/command/progress.h"
 #include "client/homing_client.h"
 #include "client/journey_client.h"
-#include "homing/status_macros.h"
+#include "homing/base/status_macros.h"
 
 namespace homing::client {
 namespace {

@@ -7,7 +7,7 @@
 #include "client/command/image_pair.h"
 #include "client/command/json_line.h"
 #include "client/homing_client.h"
-#include "homing/status_macros.h"
+#include "homing/base/status_macros.h"
 #include "proto/wire/observation_conversion.h"
 
 namespace homing::client {

@@ -8,7 +8,7 @@
 #include "client/command/progress.h"
 #include "client/journey_client.h"
 #include "client/recording_client.h"
-#include "homing/status_macros.h"
+#include "homing/base/status_macros.h"
 #include "proto/wire/settings_conversion.h"
 
 namespace homing::client {

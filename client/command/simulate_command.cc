@@ -10,7 +10,7 @@
 #include "client/command/progress.h"
 #include "client/png_file.h"
 #include "client/simulator/simulator.h"
-#include "homing/status_macros.h"
+#include "homing/base/status_macros.h"
 
 namespace homing::client {
 namespace {

@@ -9,7 +9,7 @@
 #include "client/command/json_line.h"
 #include "client/model_client.h"
 #include "client/picture/deviation_picture.h"
-#include "homing/status_macros.h"
+#include "homing/base/status_macros.h"
 
 namespace homing::client {
 namespace {

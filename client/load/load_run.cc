@@ -15,9 +15,9 @@
 #include "client/load/load_scene.h"
 #include "client/observation_stream.h"
 #include "client/recording_client.h"
+#include "homing/base/range_check.h"
+#include "homing/base/status_macros.h"
 #include "homing/open_files.h"
-#include "homing/range_check.h"
-#include "homing/status_macros.h"
 
 namespace homing::client {
 namespace {

@@ -5,7 +5,7 @@
 #include "client/frame_source.h"
 #include "client/load/projected_drive.h"
 #include "client/simulator/seeded_random.h"
-#include "homing/status_macros.h"
+#include "homing/base/status_macros.h"
 #include "proto/wire/observation_conversion.h"
 
 namespace homing::client {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "homing/flow/observation.h"
-#include "homing/localization/matcher.h"
+#include "homing/matching/matcher.h"
 
 namespace homing::client {
 

@@ -5,7 +5,7 @@
 
 #include "absl/strings/str_format.h"
 #include "client/picture/axes.h"
-#include "homing/status_macros.h"
+#include "homing/base/status_macros.h"
 
 namespace homing::client {
 namespace {

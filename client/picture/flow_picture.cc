@@ -6,8 +6,8 @@
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
 #include "client/picture/axes.h"
+#include "homing/base/status_macros.h"
 #include "homing/similarity/similarity.h"
-#include "homing/status_macros.h"
 
 namespace homing::client {
 namespace {

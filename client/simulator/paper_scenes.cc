@@ -7,7 +7,7 @@
 #include "client/simulator/scene_simulator.h"
 #include "client/simulator/simulation_spec.h"
 #include "client/simulator/texture_pool.h"
-#include "homing/status_macros.h"
+#include "homing/base/status_macros.h"
 
 namespace homing::client {
 namespace {

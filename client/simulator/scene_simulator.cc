@@ -8,7 +8,7 @@
 #include "client/simulator/simulation_spec.h"
 #include "client/simulator/true_flow.h"
 #include "client/simulator/worlds.h"
-#include "homing/status_macros.h"
+#include "homing/base/status_macros.h"
 
 namespace homing::client {
 namespace {

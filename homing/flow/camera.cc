@@ -8,8 +8,8 @@
 #include <string>
 
 #include "absl/strings/str_cat.h"
+#include "homing/base/status_macros.h"
 #include "homing/flow/undistortion.h"
-#include "homing/status_macros.h"
 
 namespace homing {
 namespace {

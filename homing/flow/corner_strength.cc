@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "homing/vector_clones.h"
+#include "homing/base/vector_clones.h"
 
 namespace homing {
 namespace {

@@ -2,8 +2,8 @@
 #include <string>
 
 #include "absl/strings/str_cat.h"
+#include "homing/base/status_macros.h"
 #include "homing/flow/flow_tracker.h"
-#include "homing/status_macros.h"
 
 namespace homing {
 namespace {

@@ -7,7 +7,7 @@
 #include <numeric>
 
 #include "absl/container/fixed_array.h"
-#include "homing/vector_clones.h"
+#include "homing/base/vector_clones.h"
 
 namespace homing {
 namespace {

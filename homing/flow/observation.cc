@@ -6,9 +6,9 @@
 #include <utility>
 
 #include "absl/strings/str_cat.h"
-#include "homing/range_check.h"
-#include "homing/status_macros.h"
-#include "homing/vector_clones.h"
+#include "homing/base/range_check.h"
+#include "homing/base/status_macros.h"
+#include "homing/base/vector_clones.h"
 
 namespace homing {
 namespace {

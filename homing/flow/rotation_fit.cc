@@ -11,8 +11,8 @@
 #include <span>
 #include <vector>
 
+#include "homing/base/vector_clones.h"
 #include "homing/flow/median.h"
-#include "homing/vector_clones.h"
 
 namespace homing {
 namespace {

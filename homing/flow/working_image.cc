@@ -4,7 +4,7 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
-#include "homing/vector_clones.h"
+#include "homing/base/vector_clones.h"
 
 namespace homing {
 namespace {

@@ -3,8 +3,8 @@
 #include <string>
 
 #include "absl/strings/str_cat.h"
-#include "homing/limit_error.h"
-#include "homing/status_macros.h"
+#include "homing/base/limit_error.h"
+#include "homing/base/status_macros.h"
 
 namespace homing {
 namespace {

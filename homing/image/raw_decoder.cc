@@ -3,8 +3,8 @@
 #include <opencv2/imgproc.hpp>
 
 #include "absl/strings/str_cat.h"
+#include "homing/base/status_macros.h"
 #include "homing/image/dimensions.h"
-#include "homing/status_macros.h"
 
 namespace homing {
 

@@ -3,10 +3,10 @@
 #include <algorithm>
 
 #include "absl/strings/str_cat.h"
+#include "homing/base/status_macros.h"
 #include "homing/flow/motion.h"
 #include "homing/journey/camera_pair.h"
 #include "homing/landmark/landmark_finder.h"
-#include "homing/status_macros.h"
 
 namespace homing {
 namespace {

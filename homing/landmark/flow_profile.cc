@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "homing/vector_clones.h"
+#include "homing/base/vector_clones.h"
 
 namespace homing {
 namespace {

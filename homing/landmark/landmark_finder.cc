@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "homing/vector_clones.h"
+#include "homing/base/vector_clones.h"
 
 namespace homing {
 namespace {

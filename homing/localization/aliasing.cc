@@ -5,8 +5,8 @@
 #include <cstdlib>
 #include <iterator>
 
-#include "homing/localization/profile_distance.h"
-#include "homing/localization/profile_evidence.h"
+#include "homing/profile/profile_distance.h"
+#include "homing/profile/profile_evidence.h"
 
 namespace homing {
 namespace {

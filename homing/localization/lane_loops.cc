@@ -1,6 +1,6 @@
 #include "homing/localization/lane_loops.h"
 
-#include "homing/vector_clones.h"
+#include "homing/base/vector_clones.h"
 
 namespace homing {
 

@@ -1,10 +1,10 @@
 #include "homing/localization/localizer.h"
 
 #include "absl/strings/str_cat.h"
+#include "homing/base/range_check.h"
+#include "homing/base/status_macros.h"
 #include "homing/flow/motion.h"
 #include "homing/journey/camera_pair.h"
-#include "homing/range_check.h"
-#include "homing/status_macros.h"
 
 namespace homing {
 namespace {

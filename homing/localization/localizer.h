@@ -9,8 +9,8 @@
 
 #include "absl/status/statusor.h"
 #include "homing/flow/observation.h"
-#include "homing/localization/matcher.h"
 #include "homing/localization/position_filter.h"
+#include "homing/matching/matcher.h"
 
 namespace homing {
 

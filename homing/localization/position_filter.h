@@ -10,12 +10,12 @@
 #include <vector>
 
 #include "homing/flow/motion.h"
-#include "homing/localization/matcher.h"
-#include "homing/localization/profile_likelihood.h"
 #include "homing/localization/route_belief.h"
 #include "homing/localization/route_membership.h"
 #include "homing/localization/step_likelihood.h"
 #include "homing/localization/step_window.h"
+#include "homing/matching/matcher.h"
+#include "homing/profile/profile_likelihood.h"
 
 namespace homing {
 

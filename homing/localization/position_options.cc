@@ -1,6 +1,6 @@
+#include "homing/base/range_check.h"
+#include "homing/base/status_macros.h"
 #include "homing/localization/position_filter.h"
-#include "homing/range_check.h"
-#include "homing/status_macros.h"
 
 namespace homing {
 namespace {

@@ -78,8 +78,6 @@ struct RouteBelief::Carried {
   std::int64_t end = 0;
 };
 
-double StepMass::Sum() const { return std::accumulate(mass.begin(), mass.end(), 0.0); }
-
 void RouteBelief::Grow(std::int64_t step_count, double mass) {
   const bool focused = IsFocused();
   step_count_ = step_count;

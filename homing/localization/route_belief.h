@@ -9,15 +9,9 @@
 #include <span>
 #include <vector>
 
+#include "homing/profile/step_mass.h"
+
 namespace homing {
-
-// Mass of consecutive steps, over all directions and speeds.
-struct StepMass {
-  std::int64_t first = 0;
-  std::vector<float> mass;
-
-  double Sum() const;
-};
 
 // Masses are not normalised. Once the robot's place is known, only the steps about it are held one
 // by one (the focus); all others have the same small mass. Not thread-safe.

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "absl/status/status.h"
-#include "homing/localization/factor_table.h"
-#include "homing/localization/matcher.h"
+#include "homing/matching/matcher.h"
+#include "homing/profile/factor_table.h"
 
 namespace homing {
 

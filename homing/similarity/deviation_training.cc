@@ -5,8 +5,8 @@
 #include <numbers>
 #include <random>
 
-#include "homing/range_check.h"
-#include "homing/status_macros.h"
+#include "homing/base/range_check.h"
+#include "homing/base/status_macros.h"
 
 namespace homing {
 namespace {

@@ -9,8 +9,8 @@
 #include "homing/flow/observation.h"
 #include "homing/image/frame.h"
 #include "homing/landmark/fingerprint.h"
-#include "homing/localization/matcher.h"
 #include "homing/localization/position_filter.h"
+#include "homing/matching/matcher.h"
 #include "homing/v1/homing_service.pb.h"
 #include "homing/v1/types.pb.h"
 

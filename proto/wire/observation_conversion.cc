@@ -5,8 +5,8 @@
 
 #include "absl/status/status.h"
 #include "absl/strings/str_cat.h"
-#include "homing/limit_error.h"
-#include "homing/status_macros.h"
+#include "homing/base/limit_error.h"
+#include "homing/base/status_macros.h"
 #include "proto/wire/enum_conversion.h"
 
 namespace homing::wire {

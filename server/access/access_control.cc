@@ -7,7 +7,7 @@
 #include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
 #include "absl/strings/strip.h"
-#include "homing/status_macros.h"
+#include "homing/base/status_macros.h"
 #include "server/session/error_reason.h"
 
 namespace homing::server {

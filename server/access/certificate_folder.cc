@@ -7,8 +7,8 @@
 #include <sstream>
 
 #include "absl/strings/str_cat.h"
-#include "homing/range_check.h"
-#include "homing/status_macros.h"
+#include "homing/base/range_check.h"
+#include "homing/base/status_macros.h"
 #include "server/access/certificate_authority.h"
 #include "server/access/identity.h"
 #include "server/access/private_file.h"

@@ -3,7 +3,7 @@
 #include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
 #include "absl/strings/strip.h"
-#include "homing/status_macros.h"
+#include "homing/base/status_macros.h"
 #include "server/session/error_reason.h"
 #include "server/session/resource_name.h"
 

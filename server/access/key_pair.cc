@@ -5,7 +5,7 @@
 
 #include "absl/status/statusor.h"
 #include "absl/strings/str_cat.h"
-#include "homing/status_macros.h"
+#include "homing/base/status_macros.h"
 #include "server/access/flag_file.h"
 #include "server/access/openssl_handle.h"
 

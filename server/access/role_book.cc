@@ -1,7 +1,7 @@
 #include "server/access/role_book.h"
 
 #include "absl/strings/str_cat.h"
-#include "homing/status_macros.h"
+#include "homing/base/status_macros.h"
 #include "server/access/identity.h"
 #include "server/access/text_table.h"
 

@@ -3,7 +3,7 @@
 #include <toml++/toml.h>
 
 #include "absl/strings/str_cat.h"
-#include "homing/status_macros.h"
+#include "homing/base/status_macros.h"
 #include "server/access/flag_file.h"
 
 namespace homing::server {

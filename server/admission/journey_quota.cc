@@ -4,7 +4,7 @@
 #include <functional>
 
 #include "absl/strings/str_cat.h"
-#include "homing/status_macros.h"
+#include "homing/base/status_macros.h"
 #include "server/session/error_reason.h"
 
 namespace homing::server {

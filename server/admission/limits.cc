@@ -1,7 +1,7 @@
 #include "server/admission/limits.h"
 
-#include "homing/range_check.h"
-#include "homing/status_macros.h"
+#include "homing/base/range_check.h"
+#include "homing/base/status_macros.h"
 
 namespace homing::server {
 

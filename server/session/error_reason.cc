@@ -1,7 +1,7 @@
 #include "server/session/error_reason.h"
 
 #include "absl/strings/cord.h"
-#include "homing/limit_error.h"
+#include "homing/base/limit_error.h"
 
 namespace homing::server {
 namespace {

@@ -16,7 +16,7 @@
 
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
-#include "homing/localization/landmark_index.h"
+#include "homing/matching/landmark_index.h"
 #include "server/session/journey_selection.h"
 #include "storage/journey_store.h"
 

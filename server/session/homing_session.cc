@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "absl/strings/str_cat.h"
-#include "homing/range_check.h"
-#include "homing/status_macros.h"
+#include "homing/base/range_check.h"
+#include "homing/base/status_macros.h"
 #include "server/session/error_reason.h"
 
 namespace homing::server {

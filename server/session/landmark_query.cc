@@ -4,10 +4,10 @@
 #include <utility>
 
 #include "absl/strings/str_cat.h"
+#include "homing/base/range_check.h"
+#include "homing/base/status_macros.h"
 #include "homing/flow/motion.h"
 #include "homing/landmark/landmark_finder.h"
-#include "homing/range_check.h"
-#include "homing/status_macros.h"
 #include "server/session/fleet_index.h"
 #include "server/session/journey_selection.h"
 

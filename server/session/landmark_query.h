@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "absl/status/statusor.h"
-#include "homing/localization/matcher.h"
+#include "homing/matching/matcher.h"
 #include "server/session/journey_catalog.h"
 
 namespace homing::server {

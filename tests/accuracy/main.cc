@@ -6,7 +6,7 @@
 
 #include "absl/strings/str_format.h"
 #include "absl/strings/str_replace.h"
-#include "homing/status_macros.h"
+#include "homing/base/status_macros.h"
 #include "tests/accuracy/fleet.h"
 #include "tests/accuracy/homing_runs.h"
 #include "tests/accuracy/picture_peers.h"

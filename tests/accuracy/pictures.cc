@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "client/picture/axes.h"
-#include "homing/localization/profile_distance.h"
-#include "homing/status_macros.h"
+#include "homing/base/status_macros.h"
+#include "homing/profile/profile_distance.h"
 
 namespace homing::accuracy {
 namespace {

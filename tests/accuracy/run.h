@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "homing/localization/matcher.h"
 #include "homing/localization/position_filter.h"
+#include "homing/matching/matcher.h"
 #include "tests/accuracy/drive.h"
 
 namespace homing::accuracy {

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "homing/localization/landmark_index.h"
+#include "homing/matching/landmark_index.h"
 #include "tests/benchmark/benchmarks.h"
 #include "tests/benchmark/fingerprint_source.h"
 

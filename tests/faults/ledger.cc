@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "homing/status_macros.h"
+#include "homing/base/status_macros.h"
 #include "storage/journey_store.h"
 
 namespace homing::faults {

@@ -9,7 +9,7 @@
 #include "client/homing_client.h"
 #include "client/journey_client.h"
 #include "client/recording_client.h"
-#include "homing/status_macros.h"
+#include "homing/base/status_macros.h"
 #include "proto/wire/observation_conversion.h"
 #include "tests/support/route.h"
 

@@ -3,7 +3,7 @@
 #include <iostream>
 #include <string>
 
-#include "homing/status_macros.h"
+#include "homing/base/status_macros.h"
 #include "storage/connection.h"
 
 namespace homing::storage {

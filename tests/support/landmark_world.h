@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "homing/journey/journey_map.h"
-#include "homing/localization/matcher.h"
+#include "homing/matching/matcher.h"
 
 namespace homing {
 

@@ -1,0 +1,24 @@
+// A request over a limit of whoever decodes it: never worth a retry. Source: own design.
+#ifndef HOMING_BASE_LIMIT_ERROR_H_
+#define HOMING_BASE_LIMIT_ERROR_H_
+
+#include <string>
+
+#include "absl/status/status.h"
+#include "absl/strings/cord.h"
+
+namespace homing {
+
+// Where an error keeps a word for programs.
+inline constexpr char kReasonPayload[] = "homing/reason";
+
+// INVALID_ARGUMENT whose reason is `limit`, for example "PIXELS".
+inline absl::Status LimitError(const std::string& limit, const std::string& message) {
+  absl::Status status = absl::InvalidArgumentError(message);
+  status.SetPayload(kReasonPayload, absl::Cord(limit));
+  return status;
+}
+
+}  // namespace homing
+
+#endif  // HOMING_BASE_LIMIT_ERROR_H_

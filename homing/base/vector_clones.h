@@ -1,0 +1,14 @@
+// Loops that are compiled once a kind of machine; the fitting one is chosen when the program
+// starts. Source: own design.
+#ifndef HOMING_BASE_VECTOR_CLONES_H_
+#define HOMING_BASE_VECTOR_CLONES_H_
+
+// Sanitizers are not ready when the choice is made.
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && \
+    !defined(__SANITIZE_THREAD__) && !defined(__SANITIZE_ADDRESS__)
+#define HOMING_VECTOR_CLONES __attribute__((target_clones("avx2", "default")))
+#else
+#define HOMING_VECTOR_CLONES
+#endif
+
+#endif  // HOMING_BASE_VECTOR_CLONES_H_

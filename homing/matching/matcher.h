@@ -1,0 +1,123 @@
+// Which stored landmarks resemble what is seen: the best P_T over one or more journeys
+// (paper III, eqs 13 to 15).
+#ifndef HOMING_MATCHING_MATCHER_H_
+#define HOMING_MATCHING_MATCHER_H_
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "homing/journey/journey_map.h"
+#include "homing/journey/journey_ref.h"
+#include "homing/landmark/landmark_finder.h"
+#include "homing/matching/survival_bound.h"
+#include "homing/similarity/similarity.h"
+
+namespace homing {
+
+// Whether the cameras changed sides of the route. Direction is always estimated.
+enum class Travel { kReturn = 1, kSame = 2 };
+
+// The side of the route that a camera of the robot looks at.
+Side RouteSide(Side camera, Travel travel);
+
+// Landmarks seen at one instant, indexed by side of the ROUTE.
+using SeenSides = std::array<std::vector<SeenLandmark>, 2>;
+
+struct Match {
+  // Index into the journeys searched.
+  int journey = 0;
+  std::int32_t landmark = 0;
+  std::int64_t step = 0;
+  Side side = Side::kLeft;
+  Similarity similarity;
+};
+
+struct MatchOptions {
+  // Most landmarks returned. [1, 1000].
+  int max_matches = 10;
+  // Least P_T returned. [0, 1].
+  double threshold = kRecognitionThreshold;
+};
+
+absl::Status Validate(const MatchOptions& options);
+
+// Not thread-safe: keeps what it works with from query to query.
+class Matcher {
+ public:
+  // Distinct landmarks, each with its best step over everything seen on its side; best P_T first,
+  // ties by journey name, step, side, landmark. Each journey is scored with its own deviation
+  // model. A P_T of 0 is no match. REQUIRES: Validate(options).ok().
+  std::vector<Match> Find(std::span<const JourneyRef> journeys, const SeenSides& seen,
+                          const MatchOptions& options);
+
+  // The best of one journey's steps from `first` to `last`, if any reaches the threshold.
+  // REQUIRES: both are steps of the map.
+  std::optional<Match> FindBestWithin(const JourneyRef& journey, std::int64_t first,
+                                      std::int64_t last, const SeenSides& seen, double threshold);
+
+ private:
+  // Stored fingerprints that are gone through at a time: what is noted of them stays at hand.
+  static constexpr std::size_t kTile = 256;
+
+  // A pair that may reach the threshold.
+  struct Candidate {
+    const Fingerprint* stored = nullptr;
+    const SeenLandmark* seen = nullptr;
+    // Index into the journeys.
+    int journey = 0;
+    // Number of the landmark over all journeys.
+    std::size_t landmark = 0;
+    // Bound of P_T.
+    float most = 0;
+  };
+
+  // What is seen on either side of the route, in one row.
+  struct SeenPlace {
+    const SeenLandmark* landmark = nullptr;
+    float x = 0;
+    float y = 0;
+    Side side = Side::kLeft;
+  };
+
+  const SurvivalBound& BoundOf(const DeviationModel& model);
+  void Clear();
+  void Scan(int number, const JourneyMap& map, std::int64_t first, std::int64_t last,
+            const SeenSides& seen, double threshold);
+  // Those of at most kTile that have something that is seen at less than this squared distance.
+  std::span<const Fingerprint* const> FindNear(std::span<const Fingerprint> tile, float reach);
+  // Over all steps.
+  void ScanAll(std::span<const JourneyRef> journeys, const SeenSides& seen, double threshold);
+  // The P_T that the `most`-th landmark has at least, as far as bounds tell; once a scan.
+  float LeastOfBest(int most);
+  // The best of each landmark whose P_T may reach `of_best`.
+  std::vector<Match> Compute(std::span<const JourneyRef> journeys, double threshold, float of_best);
+
+  std::vector<std::pair<DeviationModel, std::unique_ptr<const SurvivalBound>>> bounds_;
+  std::vector<SeenPlace> all_seen_;
+  // Of a tile.
+  std::array<const Fingerprint*, kTile> near_;
+  std::vector<Candidate> candidates_;
+  // What candidates say of their landmark.
+  struct KnownLandmark {
+    // Its P_T at least.
+    float least = 0;
+    // Which match it is, or -1.
+    std::int32_t match = -1;
+    bool counted = false;
+  };
+  // Of the journeys scanned.
+  std::size_t landmark_count_ = 0;
+  // By landmark over all journeys.
+  std::vector<KnownLandmark> known_;
+  std::vector<float> positive_;
+};
+
+}  // namespace homing
+
+#endif  // HOMING_MATCHING_MATCHER_H_

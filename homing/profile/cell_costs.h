@@ -1,0 +1,28 @@
+// What a cell adds to the distance of two flow profiles. Source: own design; fitted to matched and
+// unmatched pairs (docs/algorithm.md).
+#ifndef HOMING_PROFILE_CELL_COSTS_H_
+#define HOMING_PROFILE_CELL_COSTS_H_
+
+#include <algorithm>
+#include <cstdint>
+
+namespace homing {
+
+// Of the share codes seen and stored. 0 to 60. What is gone says less than what has come: landmarks
+// vanish, and poor light hides.
+constexpr std::uint8_t ShareCost(std::uint8_t seen, std::uint8_t stored) {
+  const std::uint8_t common = std::min(seen, stored);
+  return static_cast<std::uint8_t>((stored - common) * 3 + (seen - common) * 4);
+}
+
+// Of the parallax codes, where both have vectors. 0 to 6.
+constexpr std::uint8_t ParallaxCost(std::uint8_t seen, std::uint8_t stored) {
+  constexpr std::uint8_t kMost = 6;
+  const std::uint8_t both = seen != 0 && stored != 0 ? 255 : 0;
+  const auto apart = static_cast<std::uint8_t>(std::max(seen, stored) - std::min(seen, stored));
+  return std::min(kMost, apart) & both;
+}
+
+}  // namespace homing
+
+#endif  // HOMING_PROFILE_CELL_COSTS_H_

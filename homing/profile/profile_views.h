@@ -1,0 +1,32 @@
+// What the cameras see now, as the outbound robot would have seen it from other distances: a robot
+// that drives further left or right sees one side of the route larger and the other smaller.
+// Source: own design.
+#ifndef HOMING_PROFILE_PROFILE_VIEWS_H_
+#define HOMING_PROFILE_PROFILE_VIEWS_H_
+
+#include <array>
+#include <cstddef>
+#include <optional>
+
+#include "homing/landmark/flow_profile.h"
+
+namespace homing {
+
+// Offsets from the outbound path, to the left of the route; in distances of what is seen there.
+inline constexpr std::array<double, 7> kPathOffsets = {-0.35, -0.23, -0.11, 0, 0.11, 0.23, 0.35};
+
+// How much larger each view is than what the camera sees.
+constexpr double MagnificationOf(std::size_t view) { return 1 + kPathOffsets[view]; }
+
+// The view of `side` of the route for the path offset of index `offset`: nearer on one side is
+// further away on the other.
+constexpr std::size_t ViewOf(std::size_t side, std::size_t offset) {
+  return side == 0 ? kPathOffsets.size() - 1 - offset : offset;
+}
+
+// Indexed by side of the ROUTE; none where no camera looks.
+using SeenProfiles = std::array<std::optional<ProfileMaker>, 2>;
+
+}  // namespace homing
+
+#endif  // HOMING_PROFILE_PROFILE_VIEWS_H_

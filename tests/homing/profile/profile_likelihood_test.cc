@@ -1,0 +1,247 @@
+#include "homing/profile/profile_likelihood.h"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <random>
+
+#include "homing/localization/position_filter.h"
+#include "homing/profile/profile_blocks.h"
+#include "homing/profile/profile_evidence.h"
+
+namespace homing {
+namespace {
+
+constexpr int kMapSteps = 60;
+
+// A camera's field of `count` vectors at random places, about the middle of the image.
+FlowField RandomField(std::mt19937_64& engine, int count = 120) {
+  std::uniform_real_distribution<float> x(60, 260);
+  std::uniform_real_distribution<float> y(40, 200);
+  std::uniform_real_distribution<float> length(2, 6);
+  FlowField field{.width = 320, .height = 240, .vectors = {}};
+  for (int i = 0; i < count; ++i) {
+    const float at = x(engine);
+    const float height = y(engine);
+    const float half = length(engine) / 2;
+    field.vectors.push_back({at - half, height, at + half, height});
+  }
+  return field;
+}
+
+// As seen from nearer, about the middle of the image.
+FlowField Nearer(FlowField field, float by) {
+  for (FlowVector& v : field.vectors) {
+    v = {159.5F + by * (v.start_x - 159.5F), 119.5F + by * (v.start_y - 119.5F),
+         159.5F + by * (v.end_x - 159.5F), 119.5F + by * (v.end_y - 119.5F)};
+  }
+  return field;
+}
+
+class ProfileLikelihoodTest : public ::testing::Test {
+ protected:
+  ProfileLikelihoodTest() {
+    std::mt19937_64 engine(7);
+    for (int step = 0; step < kMapSteps; ++step) {
+      fields_.push_back(RandomField(engine));
+      JourneyStep recorded{
+          .step = step, .motion = Motion::kMoving, .fingerprints = {}, .profiles = {}};
+      recorded.profiles[0] = MakeFlowProfile(fields_.back());
+      EXPECT_TRUE(map_.Append(recorded).ok());
+    }
+  }
+
+  // What it says, before it is taken up.
+  std::span<const float> See(const FlowField& field, std::size_t side = 0) {
+    SeenProfiles seen;
+    seen[side].emplace(field);
+    likelihood_.Compute({&ref_, 1}, seen, {&predicted_, 1});
+    return likelihood_.of(0);
+  }
+
+  std::vector<FlowField> fields_;
+  std::string name_ = "robots/a/journeys/b";
+  JourneyMap map_;
+  JourneyRef ref_{&name_, &map_};
+  StepMass predicted_{0, std::vector<float>(kMapSteps, 1.0F / kMapSteps)};
+  ProfileLikelihood likelihood_;
+};
+
+TEST_F(ProfileLikelihoodTest, TheStepItselfIsTheMostLikely) {
+  for (int step = 0; step < kMapSteps; ++step) {
+    const auto likelihood = See(fields_[static_cast<std::size_t>(step)]);
+    EXPECT_EQ(std::ranges::max_element(likelihood) - likelihood.begin(), step);
+    EXPECT_GT(std::log(likelihood[static_cast<std::size_t>(step)]), likelihood_.OffRoute());
+  }
+}
+
+TEST_F(ProfileLikelihoodTest, AForeignPlaceSpeaksForBeingOffTheRoute) {
+  std::mt19937_64 engine(8);
+  double mean = 0;
+  for (int i = 0; i < 20; ++i) {
+    for (const float value : See(RandomField(engine))) {
+      mean += double{value} / (20 * kMapSteps);
+    }
+  }
+  EXPECT_LT(std::log(mean), likelihood_.OffRoute());
+}
+
+TEST_F(ProfileLikelihoodTest, LearnsThatTheRobotIsNearer) {
+  predicted_.mass.assign(kMapSteps, 0);
+  predicted_.mass[20] = 1;
+  // A first observation counts for more than any further one.
+  See(fields_[20]);
+  likelihood_.Learn();
+  const float at_first = See(Nearer(fields_[20], 1.35F))[20];
+  for (int i = 0; i < 10; ++i) {
+    See(Nearer(fields_[20], 1.35F));
+    likelihood_.Learn();
+  }
+  EXPECT_GT(See(Nearer(fields_[20], 1.35F))[20], 1.2F * at_first);
+}
+
+TEST_F(ProfileLikelihoodTest, WhatIsLearntAtOnePlaceIsNotExpectedAtAFarOne) {
+  predicted_.mass.assign(kMapSteps, 0);
+  predicted_.mass[5] = 1;
+  See(fields_[5]);
+  likelihood_.Learn();
+  const float before = See(fields_[50])[50];
+  for (int i = 0; i < 10; ++i) {
+    See(Nearer(fields_[5], 1.35F));
+    likelihood_.Learn();
+  }
+  EXPECT_FLOAT_EQ(See(fields_[50])[50], before);
+}
+
+// The bound of the odds: little that fits must bring the robot back.
+TEST_F(ProfileLikelihoodTest, ALongForeignWayIsHardlyMoreThanEvenOdds) {
+  std::mt19937_64 engine(11);
+  PositionFilter filter{PositionOptions{}};
+  Position position;
+  for (int i = 0; i < 100; ++i) {
+    SeenProfiles seen;
+    seen[0].emplace(RandomField(engine));
+    position = filter.Update({&ref_, 1}, Motion::kMoving, {}, seen);
+  }
+  EXPECT_EQ(position.outcome, Outcome::kUnknownPlace);
+  EXPECT_LT(position.unknown_probability, 0.507);
+}
+
+TEST_F(ProfileLikelihoodTest, TheOtherSideSaysNothing) {
+  SeenProfiles seen;
+  seen[1].emplace(fields_[3]);
+  EXPECT_FALSE(ProfileLikelihood::CanCompare({&ref_, 1}, seen));
+  EXPECT_FALSE(ProfileLikelihood::CanCompare({&ref_, 1}, {}));
+  seen[0] = seen[1];
+  EXPECT_TRUE(ProfileLikelihood::CanCompare({&ref_, 1}, seen));
+}
+
+TEST(EvidenceWeightTest, FewVectorsSayLittleButNeverNothing) {
+  EXPECT_EQ(EvidenceWeight(0), 1);
+  EXPECT_EQ(EvidenceWeight(25), kWholeWeight / 4);
+  EXPECT_EQ(EvidenceWeight(50), kWholeWeight);
+  EXPECT_EQ(EvidenceWeight(5000), kWholeWeight);
+  const float near = -3;
+  EXPECT_LT(ProfileRatio::Further(2)(near), ProfileRatio::Further(kWholeWeight)(near));
+}
+
+TEST(ProfileDistanceTest, IsZeroToItselfAndNearlySymmetric) {
+  std::mt19937_64 engine(9);
+  const FlowProfile a = MakeFlowProfile(RandomField(engine));
+  const FlowProfile b = MakeFlowProfile(RandomField(engine));
+  const CellMask all = CoveredCells(1);
+  std::vector<std::uint16_t> from_a(2);
+  std::vector<std::uint16_t> from_b(2);
+  const std::vector<FlowProfile> stored = {a, b};
+  ProfileDistances(a, stored, all, from_a);
+  ProfileDistances(b, stored, all, from_b);
+  EXPECT_EQ(from_a[0], 0);
+  EXPECT_EQ(from_b[1], 0);
+  // What is gone counts three quarters of what has come.
+  EXPECT_GT(from_a[1], 0);
+  EXPECT_GE(from_a[1], from_b[0] * 3 / 4);
+  EXPECT_LE(from_a[1], from_b[0] * 4 / 3);
+}
+
+TEST(ProfileDistanceTest, CountsSharesAndParallaxOfCoveredCells) {
+  FlowProfile a;
+  FlowProfile b;
+  a.cells[0] = 8 << 4 | 5;  // A corner: not covered by half the image.
+  b.cells[0] = 10 << 4 | 2;
+  a.cells[53] = 15 << 4 | 4;
+  b.cells[53] = 1 << 4 | 9;
+  a.cells[54] = 7 << 4 | 3;  // Nothing there in b: no parallax to compare.
+  const std::vector<FlowProfile> stored = {b};
+  std::vector<std::uint16_t> distance(1);
+  ProfileDistances(a, stored, CoveredCells(1), distance);
+  EXPECT_EQ(distance[0], (4 * 3 + 2) + (3 * 5 + 6) + 4 * 3);
+  ProfileDistances(a, stored, CoveredCells(0.5), distance);
+  EXPECT_EQ(distance[0], (3 * 5 + 6) + 4 * 3);
+}
+
+// Codes of all kinds, many of them none.
+FlowProfile RandomCodes(std::mt19937_64& engine) {
+  std::uniform_int_distribution<int> code(-15, FlowProfile::kMaxCode);
+  FlowProfile profile;
+  for (std::uint8_t& cell : profile.cells) {
+    cell = static_cast<std::uint8_t>(std::max(0, code(engine)) << 4 | std::max(0, code(engine)));
+  }
+  return profile;
+}
+
+TEST(ProfileDistanceTest, IsTheSameByBlocksAsCellByCell) {
+  if (!ProfileBlocksFit()) GTEST_SKIP() << "SKIPPED: this machine has no AVX2";
+  std::mt19937_64 engine(10);
+  std::vector<FlowProfile> all;
+  for (int i = 0; i < 70; ++i) all.push_back(RandomCodes(engine));
+  all[3].cells.fill(0xff);
+  all[4].cells.fill(0);
+  // Whole blocks, parts of one, and none.
+  for (const std::size_t count : {0, 1, 31, 32, 33, 64, 70}) {
+    const auto stored = std::span(all).first(count);
+    for (const double magnification : {0.1, 0.65, 1.0, 1.35}) {
+      const CellMask covered = CoveredCells(magnification);
+      const std::array seen = {RandomCodes(engine), all[3], all[4]};
+      std::array<std::vector<std::uint16_t>, 3> by_blocks;
+      std::vector<ProfileView> views;
+      for (std::size_t i = 0; i < seen.size(); ++i) {
+        by_blocks[i].resize(count);
+        views.push_back({seen[i], covered, by_blocks[i]});
+      }
+      ProfileDistancesByBlocks(views, stored);
+      for (std::size_t i = 0; i < seen.size(); ++i) {
+        std::vector<std::uint16_t> plain(count);
+        PlainProfileDistances({seen[i], covered, plain}, stored);
+        std::vector<const FlowProfile*> listed;
+        for (const FlowProfile& profile : stored) listed.push_back(&profile);
+        std::vector<std::uint16_t> of_list(count);
+        const ProfileView view{seen[i], covered, of_list};
+        ProfileDistances({&view, 1}, listed);
+        EXPECT_EQ(of_list, plain) << count << " listed";
+        EXPECT_EQ(by_blocks[i], plain) << count << " stored, view " << i << " x" << magnification;
+      }
+    }
+  }
+}
+
+TEST(ProfileRatioTest, MultipliesAsOneByOne) {
+  std::vector<std::uint16_t> distances;
+  for (int distance = 0; distance <= 6336; distance += 7) {
+    distances.push_back(static_cast<std::uint16_t>(distance));
+  }
+  // The narrow one reaches beyond both ends of the ratios.
+  for (const DistanceScale scale : {DistanceScale{600, 0.01F}, DistanceScale{900, 1.5F}}) {
+    std::vector<float> factors(distances.size(), 0.5F);
+    const ProfileRatio& ratio = ProfileRatio::Further(5);
+    ratio.Multiply(distances, scale, factors);
+    for (std::size_t i = 0; i < distances.size(); ++i) {
+      ASSERT_EQ(factors[i], 0.5F * ratio(scale.Deviations(distances[i]))) << distances[i];
+    }
+    EXPECT_GT(factors.front(), factors.back());
+  }
+}
+
+}  // namespace
+}  // namespace homing
