@@ -7,7 +7,7 @@
 
 #include "client/command/commands.h"
 #include "client/command/session.h"
-#include "homing/lock_checks.h"
+#include "server/process/lock_checks.h"
 
 namespace {
 

@@ -2,8 +2,8 @@
 #ifndef SERVER_CORE_GAUGES_H_
 #define SERVER_CORE_GAUGES_H_
 
-#include "server/server_options.h"
-#include "server/service_core.h"
+#include "server/config/server_options.h"
+#include "server/rpc/service_core.h"
 
 namespace homing::server {
 

@@ -7,8 +7,8 @@
 #include <string>
 
 #include "absl/status/statusor.h"
-#include "server/server_options.h"
-#include "server/session/writer_lease.h"
+#include "server/catalog/writer_lease.h"
+#include "server/config/server_options.h"
 
 namespace homing::server {
 

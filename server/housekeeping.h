@@ -8,7 +8,7 @@
 #include <mutex>
 #include <thread>
 
-#include "server/service_core.h"
+#include "server/rpc/service_core.h"
 
 namespace homing::server {
 

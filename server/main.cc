@@ -8,13 +8,13 @@
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 
-#include "homing/lock_checks.h"
-#include "homing/open_files.h"
-#include "server/access_commands.h"
-#include "server/health_check.h"
+#include "server/config/access_commands.h"
+#include "server/config/health_check.h"
+#include "server/config/server_options.h"
+#include "server/config/store_commands.h"
 #include "server/homing_server.h"
-#include "server/server_options.h"
-#include "server/store_commands.h"
+#include "server/process/lock_checks.h"
+#include "server/process/open_files.h"
 
 // Read by jemalloc. One arena: what one of the few threads allocates another frees. What is free
 // goes back soon: after a burst of a thousand robots it was as much as all that they use.

@@ -9,7 +9,7 @@
 
 #include "homing/base/status_macros.h"
 #include "server/access/key_pair.h"
-#include "server/status_conversion.h"
+#include "server/rpc/status_conversion.h"
 
 namespace homing::server {
 namespace {

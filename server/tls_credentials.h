@@ -8,7 +8,7 @@
 
 #include "absl/status/statusor.h"
 #include "server/access/access_control.h"
-#include "server/server_options.h"
+#include "server/config/server_options.h"
 
 namespace homing::server {
 

@@ -17,7 +17,7 @@
 #include "client/recording_client.h"
 #include "homing/base/range_check.h"
 #include "homing/base/status_macros.h"
-#include "homing/open_files.h"
+#include "server/process/open_files.h"
 
 namespace homing::client {
 namespace {

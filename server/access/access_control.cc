@@ -8,7 +8,7 @@
 #include "absl/strings/str_cat.h"
 #include "absl/strings/strip.h"
 #include "homing/base/status_macros.h"
-#include "server/session/error_reason.h"
+#include "server/base/error_reason.h"
 
 namespace homing::server {
 namespace {

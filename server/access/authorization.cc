@@ -5,8 +5,8 @@
 #include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
 #include "homing/base/status_macros.h"
-#include "server/session/error_reason.h"
-#include "server/session/resource_name.h"
+#include "server/base/error_reason.h"
+#include "server/base/resource_name.h"
 
 namespace homing::server {
 namespace {

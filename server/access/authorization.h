@@ -7,7 +7,7 @@
 #include "absl/status/status.h"
 #include "server/access/caller.h"
 #include "server/access/rpc.h"
-#include "server/session/journey_catalog.h"
+#include "server/catalog/journey_catalog.h"
 
 namespace homing::server {
 

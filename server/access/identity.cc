@@ -4,8 +4,8 @@
 #include "absl/strings/str_cat.h"
 #include "absl/strings/strip.h"
 #include "homing/base/status_macros.h"
-#include "server/session/error_reason.h"
-#include "server/session/resource_name.h"
+#include "server/base/error_reason.h"
+#include "server/base/resource_name.h"
 
 namespace homing::server {
 namespace {

@@ -10,7 +10,7 @@
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
 #include "server/admission/limits.h"
-#include "server/session/journey_catalog.h"
+#include "server/catalog/journey_catalog.h"
 
 namespace homing::server {
 

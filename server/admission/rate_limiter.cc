@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "absl/strings/str_cat.h"
-#include "server/session/error_reason.h"
+#include "server/base/error_reason.h"
 
 namespace homing::server {
 namespace {

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "absl/status/status.h"
-#include "server/session/writer_lease.h"
+#include "server/catalog/writer_lease.h"
 
 namespace homing::server {
 

@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "absl/strings/str_cat.h"
-#include "server/session/error_reason.h"
+#include "server/base/error_reason.h"
 
 namespace homing::server {
 

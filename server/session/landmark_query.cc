@@ -8,8 +8,8 @@
 #include "homing/base/status_macros.h"
 #include "homing/flow/motion.h"
 #include "homing/landmark/landmark_finder.h"
-#include "server/session/fleet_index.h"
-#include "server/session/journey_selection.h"
+#include "server/catalog/fleet_index.h"
+#include "server/catalog/journey_selection.h"
 
 namespace homing::server {
 namespace {

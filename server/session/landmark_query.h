@@ -11,7 +11,7 @@
 
 #include "absl/status/statusor.h"
 #include "homing/matching/matcher.h"
-#include "server/session/journey_catalog.h"
+#include "server/catalog/journey_catalog.h"
 
 namespace homing::server {
 

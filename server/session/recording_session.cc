@@ -7,7 +7,7 @@
 #include "absl/strings/str_cat.h"
 #include "homing/base/range_check.h"
 #include "homing/base/status_macros.h"
-#include "server/session/error_reason.h"
+#include "server/base/error_reason.h"
 
 namespace homing::server {
 namespace {

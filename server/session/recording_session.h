@@ -14,7 +14,7 @@
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
 #include "homing/journey/journey_recorder.h"
-#include "server/session/journey_catalog.h"
+#include "server/catalog/journey_catalog.h"
 #include "storage/commit_queue.h"
 
 namespace homing::server {

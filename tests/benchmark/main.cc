@@ -15,8 +15,8 @@
 #include <vector>
 
 #include "absl/strings/str_cat.h"
-#include "homing/lock_checks.h"
-#include "homing/open_files.h"
+#include "server/process/lock_checks.h"
+#include "server/process/open_files.h"
 #include "tests/benchmark/benchmarks.h"
 #include "tests/benchmark/report.h"
 #include "tests/benchmark/results.h"

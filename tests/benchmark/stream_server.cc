@@ -7,8 +7,8 @@
 
 #include "absl/strings/str_cat.h"
 #include "homing/v1/journey_service.grpc.pb.h"
-#include "server/bidi_stream.h"
 #include "server/homing_server.h"
+#include "server/rpc/bidi_stream.h"
 #include "tests/support/temporary_folder.h"
 
 namespace homing::benchmarks {

@@ -6,7 +6,7 @@
 #include <string>
 #include <thread>
 
-#include "server/health_check.h"
+#include "server/config/health_check.h"
 
 namespace homing::faults {
 

@@ -7,7 +7,7 @@
 #include <sstream>
 #include <vector>
 
-#include "server/server_options.h"
+#include "server/config/server_options.h"
 #include "tests/fuzz/fuzz_input.h"
 
 namespace homing::fuzz {

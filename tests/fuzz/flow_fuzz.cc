@@ -4,7 +4,7 @@
 #include "homing/journey/journey_recorder.h"
 #include "homing/localization/localizer.h"
 #include "proto/wire/observation_conversion.h"
-#include "server/journey_archive.h"
+#include "server/service/journey_archive.h"
 #include "tests/fuzz/fuzz_input.h"
 
 namespace homing::fuzz {

@@ -2,7 +2,7 @@
 // or (first byte 0) the whole file.
 #include <zlib.h>
 
-#include "server/journey_archive.h"
+#include "server/service/journey_archive.h"
 #include "tests/fuzz/fuzz_input.h"
 
 namespace {

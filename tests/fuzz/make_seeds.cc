@@ -11,8 +11,8 @@
 #include "homing/v1/homing_service.pb.h"
 #include "homing/v1/journey_service.pb.h"
 #include "proto/wire/observation_conversion.h"
-#include "server/journey_archive.h"
-#include "server/server_options.h"
+#include "server/config/server_options.h"
+#include "server/service/journey_archive.h"
 #include "tests/server/compressed_images.h"
 #include "tests/support/route.h"
 

@@ -3,7 +3,7 @@
 
 #include "homing/flow/observation.h"
 #include "homing/image/frame.h"
-#include "server/health_check.h"
+#include "server/config/health_check.h"
 #include "tests/server/server_fixture.h"
 #include "tests/support/status_matchers.h"
 

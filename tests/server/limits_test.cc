@@ -7,7 +7,7 @@
 #include <future>
 
 #include "homing/image/frame.h"
-#include "server/metrics_endpoint.h"
+#include "server/metrics/metrics_endpoint.h"
 #include "tests/server/server_fixture.h"
 #include "tests/support/status_matchers.h"
 

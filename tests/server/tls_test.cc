@@ -8,7 +8,7 @@
 #include "server/access/certificate_authority.h"
 #include "server/access/certificate_folder.h"
 #include "server/access/token_book.h"
-#include "server/health_check.h"
+#include "server/config/health_check.h"
 #include "tests/server/every_rpc.h"
 #include "tests/server/server_fixture.h"
 #include "tests/support/status_matchers.h"

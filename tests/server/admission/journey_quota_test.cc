@@ -1,7 +1,7 @@
 // What one robot may keep, and for how long.
 #include "server/admission/journey_quota.h"
 
-#include "server/session/error_reason.h"
+#include "server/base/error_reason.h"
 #include "tests/server/session/session_fixture.h"
 
 namespace homing::server {

@@ -1,7 +1,7 @@
 // Rates and open streams.
 #include "server/admission/rate_limiter.h"
 #include "server/admission/stream_limiter.h"
-#include "server/session/error_reason.h"
+#include "server/base/error_reason.h"
 #include "tests/support/status_matchers.h"
 
 namespace homing::server {

@@ -2,7 +2,7 @@
 
 #include <chrono>
 
-#include "server/session/error_reason.h"
+#include "server/base/error_reason.h"
 #include "tests/server/session/session_fixture.h"
 
 namespace homing::server {

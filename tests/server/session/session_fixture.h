@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "server/session/journey_catalog.h"
+#include "server/catalog/journey_catalog.h"
 #include "server/session/recording_session.h"
 #include "storage/commit_queue.h"
 #include "tests/support/route.h"

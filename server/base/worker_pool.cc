@@ -1,0 +1,133 @@
+#include "server/base/worker_pool.h"
+
+#include <algorithm>
+#include <opencv2/core/utility.hpp>
+#include <utility>
+
+namespace homing::server {
+namespace {
+
+// A stream with more of them lets others have their turn.
+constexpr int kTasksATurn = 8;
+
+void RunOpenCvSingleThreaded() {
+  static std::once_flag once;
+  std::call_once(once, [] { cv::setNumThreads(0); });
+}
+
+}  // namespace
+
+WorkerPool::WorkerPool(int workers, int max_waiting)
+    : max_waiting_(static_cast<std::size_t>(std::max(max_waiting, 1))) {
+  RunOpenCvSingleThreaded();
+  for (int i = 0; i < std::max(workers, 1); ++i) {
+    threads_.emplace_back([this] { Work(); });
+  }
+}
+
+WorkerPool::~WorkerPool() {
+  {
+    const std::lock_guard lock(mutex_);
+    stopping_ = true;
+  }
+  changed_.notify_all();
+  for (std::thread& thread : threads_) {
+    thread.join();
+  }
+}
+
+bool WorkerPool::TryRun(Task task) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (tasks_.size() >= max_waiting_) {
+      return false;
+    }
+    tasks_.push_back(std::move(task));
+  }
+  changed_.notify_one();
+  return true;
+}
+
+void WorkerPool::Run(Task task) {
+  {
+    const std::lock_guard lock(mutex_);
+    tasks_.push_back(std::move(task));
+  }
+  changed_.notify_one();
+}
+
+std::size_t WorkerPool::waiting() const {
+  const std::lock_guard lock(mutex_);
+  return tasks_.size();
+}
+
+void WorkerPool::Work() {
+  std::unique_lock lock(mutex_);
+  while (true) {
+    changed_.wait(lock, [this] { return stopping_ || !tasks_.empty(); });
+    if (tasks_.empty()) {
+      return;
+    }
+    Task task = std::move(tasks_.front());
+    tasks_.pop_front();
+    lock.unlock();
+    task();
+    task = nullptr;
+    lock.lock();
+  }
+}
+
+void Strand::Post(WorkerPool::Task task) {
+  {
+    const std::lock_guard lock(mutex_);
+    tasks_.push_back(std::move(task));
+    if (scheduled_) {
+      return;
+    }
+    scheduled_ = true;
+  }
+  GoOn();
+}
+
+void Strand::RunOrPost(WorkerPool::Task task) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (scheduled_) {
+      tasks_.push_back(std::move(task));
+      return;
+    }
+    scheduled_ = true;
+  }
+  task();
+  {
+    const std::lock_guard lock(mutex_);
+    scheduled_ = !tasks_.empty();
+    if (!scheduled_) {
+      return;
+    }
+  }
+  GoOn();
+}
+
+void Strand::GoOn() {
+  pool_->Run([self = shared_from_this()] { self->RunSome(); });
+}
+
+void Strand::RunSome() {
+  for (int run = 0; run < kTasksATurn; ++run) {
+    WorkerPool::Task task;
+    {
+      const std::lock_guard lock(mutex_);
+      if (tasks_.empty()) {
+        scheduled_ = false;
+        return;
+      }
+      task = std::move(tasks_.front());
+      tasks_.pop_front();
+    }
+    task();
+  }
+  GoOn();
+}
+
+}  // namespace homing::server

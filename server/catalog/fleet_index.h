@@ -1,0 +1,111 @@
+// The landmarks of all journeys, kept up to date with the disk, for queries that cover all of them.
+// Source: own design.
+#ifndef SERVER_CATALOG_FLEET_INDEX_H_
+#define SERVER_CATALOG_FLEET_INDEX_H_
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <shared_mutex>
+#include <string>
+#include <thread>
+#include <unordered_map>
+#include <vector>
+
+#include "absl/status/status.h"
+#include "absl/status/statusor.h"
+#include "homing/matching/landmark_index.h"
+#include "server/catalog/journey_selection.h"
+#include "storage/journey_store.h"
+
+namespace homing::server {
+
+// Thread-safe. Built by a thread of its own from what is on disk; what changes meanwhile waits in a
+// queue. Once it is ready, changes wait there until a query or an idle moment takes them in: who
+// tells of one never waits for a query, and the next query knows of it.
+class FleetIndex {
+ public:
+  // Begins to build. `store` must outlive the index.
+  explicit FleetIndex(storage::JourneyStore* store);
+  // Gives up building.
+  ~FleetIndex();
+  FleetIndex(const FleetIndex&) = delete;
+  FleetIndex& operator=(const FleetIndex&) = delete;
+
+  // -- What became durable, each once and in the order of one journey.
+
+  void Created(const std::string& name, const JourneySettings& settings);
+  void Appended(const std::string& name, const JourneySettings& settings, const JourneyStep& step);
+  void Imported(const std::string& name, const JourneySettings& settings, const JourneyMap& map);
+  void Deleted(const std::string& name);
+
+  // -- Queries.
+
+  // UNAVAILABLE: it is not built yet, or could not be.
+  absl::Status CheckReady() const;
+  // Of all journeys, those whose camera and settings agree with the robot's, as SelectJourneys
+  // chooses. UNAVAILABLE; NOT_FOUND: there is no journey; FAILED_PRECONDITION: none agrees.
+  absl::StatusOr<LocalizerOptions> Select(const QueryRobot& robot);
+  // As homing::Matcher::Find over the journeys that Select chooses. Match::journey is of no use.
+  absl::StatusOr<std::vector<std::pair<std::string, Match>>> Find(const QueryRobot& robot,
+                                                                  const SeenSides& seen,
+                                                                  const MatchOptions& options);
+
+ private:
+  // One of them is set, or neither: the journey is there.
+  struct Change {
+    std::string name;
+    JourneySettings settings;
+    std::optional<JourneyStep> step;
+    std::shared_ptr<const JourneyMap> map;
+    bool deleted = false;
+  };
+  // By the number of the journey in the index.
+  struct Entry {
+    std::size_t settings = 0;
+    // First step not yet in the index.
+    std::int64_t next_step = 0;
+  };
+  // Journeys of the same settings.
+  struct Settings {
+    JourneySettings settings;
+    std::int64_t journeys = 0;
+  };
+
+  void Build();
+  absl::Status LoadAll();
+  absl::Status Load(const storage::JourneyRecord& record);
+  void Tell(Change change);
+  // REQUIRES for all below: data_mutex_, exclusively unless const.
+  void TakeIn();
+  void Apply(const Change& change);
+  int JourneyOf(const std::string& name, const JourneySettings& settings);
+  std::size_t SettingsOf(const JourneySettings& settings);
+  void Remove(const std::string& name);
+  absl::StatusOr<SettingsSelection> SelectLocked(const QueryRobot& robot) const;
+  // Takes the data for reading, up to date.
+  std::shared_lock<std::shared_mutex> Lock();
+
+  storage::JourneyStore* const store_;
+  std::atomic<bool> ready_ = false;
+  std::atomic<bool> stopping_ = false;
+
+  // Locked before queue_mutex_.
+  std::shared_mutex data_mutex_;
+  LandmarkIndex index_;
+  std::unordered_map<std::string, int> numbers_;
+  std::vector<Entry> entries_;
+  std::vector<Settings> settings_;
+
+  mutable std::mutex queue_mutex_;
+  std::vector<Change> queue_;
+  absl::Status build_status_;
+
+  std::thread builder_;
+};
+
+}  // namespace homing::server
+
+#endif  // SERVER_CATALOG_FLEET_INDEX_H_

@@ -1,0 +1,258 @@
+#include "server/catalog/live_journey.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "absl/strings/str_cat.h"
+#include "homing/base/status_macros.h"
+#include "server/base/error_reason.h"
+#include "server/catalog/fleet_index.h"
+
+namespace homing::server {
+namespace {
+
+absl::Status ClaimOver(const std::string& name) {
+  return WithReason(
+      absl::AbortedError(absl::StrCat("journey is \"", name,
+                                      "\"; another stream took it over, one stream may write it")),
+      {"WRITER_REPLACED", {}});
+}
+
+void CountStep(const JourneyStep& step, storage::JourneyRecord* record) {
+  record->step_count = std::max(record->step_count, step.step + 1);
+  record->fingerprint_count += static_cast<std::int64_t>(step.fingerprints.size());
+  for (const RecordedFingerprint& f : step.fingerprints) {
+    record->landmark_count = std::max(record->landmark_count, f.fingerprint.landmark + 1);
+  }
+}
+
+}  // namespace
+
+LiveJourney::LiveJourney(storage::JourneyRecord record, storage::JourneyStore* store,
+                         FleetIndex* index)
+    : name_(record.name), store_(store), index_(index), record_(std::move(record)) {}
+
+storage::JourneyRecord LiveJourney::record() const {
+  const std::lock_guard lock(mutex_);
+  return record_;
+}
+
+bool LiveJourney::deleted() const {
+  const std::lock_guard lock(mutex_);
+  return deleted_;
+}
+
+std::int64_t LiveJourney::MemoryBytes() const {
+  constexpr std::int64_t kBytesAJourney = 2048;
+  const std::lock_guard lock(mutex_);
+  if (map_state_ == MapState::kNone) return kBytesAJourney;
+  const auto steps = static_cast<std::int64_t>(sizeof(std::int64_t) + 2 * sizeof(FlowProfile));
+  return kBytesAJourney + record_.step_count * steps +
+         record_.landmark_count * static_cast<std::int64_t>(sizeof(Landmark)) +
+         record_.fingerprint_count * static_cast<std::int64_t>(sizeof(Fingerprint));
+}
+
+bool LiveJourney::IsIdle(TimePoint now) const {
+  const std::lock_guard lock(mutex_);
+  return appends_under_way_ == 0 && lease_.CheckFree("", now).ok();
+}
+
+absl::Status LiveJourney::CheckPresent() const {
+  return deleted_ ? absl::NotFoundError(absl::StrCat("journey is \"", name_, "\"; it was deleted"))
+                  : absl::OkStatus();
+}
+
+absl::Status LiveJourney::CheckWritable() const {
+  HOMING_RETURN_IF_ERROR(CheckPresent());
+  if (record_.state == storage::JourneyState::kFinished) {
+    return WithReason(absl::FailedPreconditionError(absl::StrCat(
+                          "journey is \"", name_, "\"; it is finished and takes no observations")),
+                      {"JOURNEY_FINISHED", {}});
+  }
+  return absl::OkStatus();
+}
+
+void LiveJourney::AwaitQuiet(std::unique_lock<std::mutex>* lock) {
+  quiet_.wait(*lock, [this] { return appends_under_way_ == 0; });
+}
+
+absl::StatusOr<std::uint64_t> LiveJourney::Claim(const std::string& writer_id, TimePoint now,
+                                                 WriterLease::Evict evict) {
+  WriterLease::Evict previous;
+  std::uint64_t claim = 0;
+  {
+    std::unique_lock lock(mutex_);
+    HOMING_RETURN_IF_ERROR(CheckWritable());
+    HOMING_RETURN_IF_ERROR(lease_.CheckFree(writer_id, now));
+    claim = lease_.Take(writer_id, now, std::move(evict), &previous);
+    AwaitQuiet(&lock);
+    record_.writer_id = writer_id;
+  }
+  if (previous) {
+    previous(ClaimOver(name_));
+  }
+  return claim;
+}
+
+absl::Status LiveJourney::CheckClaim(const std::string& writer_id, TimePoint now) const {
+  const std::lock_guard lock(mutex_);
+  HOMING_RETURN_IF_ERROR(CheckWritable());
+  return lease_.CheckFree(writer_id, now);
+}
+
+absl::Status LiveJourney::Renew(std::uint64_t claim, TimePoint now) {
+  const std::lock_guard lock(mutex_);
+  if (!lease_.Holds(claim)) {
+    return ClaimOver(name_);
+  }
+  lease_.Renew(now);
+  return absl::OkStatus();
+}
+
+absl::Status LiveJourney::BeginAppend(std::uint64_t claim) {
+  const std::lock_guard lock(mutex_);
+  if (!lease_.Holds(claim)) {
+    return ClaimOver(name_);
+  }
+  ++appends_under_way_;
+  return absl::OkStatus();
+}
+
+void LiveJourney::EndAppend(const storage::JourneyAppend& append, const absl::Status& status) {
+  std::optional<JourneySettings> indexed;
+  {
+    const std::lock_guard lock(mutex_);
+    if (status.ok()) {
+      record_.next_sequence = append.sequence + 1;
+      record_.input = append.input;
+      // As on the disk: an observation without a step has no say.
+      if (append.step && append.capture_time_ns != 0) {
+        record_.start_time_ns =
+            record_.start_time_ns == 0 ? append.capture_time_ns : record_.start_time_ns;
+        record_.end_time_ns = append.capture_time_ns;
+      }
+      if (append.settings) {
+        record_.settings = *append.settings;
+        settings_changed_ = true;
+      }
+      if (append.step) {
+        CountStep(*append.step, &record_);
+        if (map_state_ != MapState::kNone) unabsorbed_.push_back(*append.step);
+        if (index_ != nullptr) indexed = record_.settings;
+      }
+    }
+  }
+  if (indexed) {
+    index_->Appended(name_, *indexed, *append.step);
+  }
+  {
+    // Last: who deletes the journey waits for it, and tells the index then.
+    const std::lock_guard lock(mutex_);
+    --appends_under_way_;
+  }
+  quiet_.notify_all();
+  if (map_mutex_.try_lock()) {
+    AbsorbSteps();
+    map_mutex_.unlock();
+  }
+}
+
+void LiveJourney::EvictWriter(const absl::Status& reason) {
+  WriterLease::Evict evict;
+  {
+    std::unique_lock lock(mutex_);
+    evict = lease_.Release();
+    AwaitQuiet(&lock);
+  }
+  if (evict) {
+    evict(reason);
+  }
+}
+
+absl::Status LiveJourney::CheckWriter(const std::string& writer_id, TimePoint now) const {
+  const std::lock_guard lock(mutex_);
+  return lease_.CheckFree(writer_id, now);
+}
+
+void LiveJourney::MarkFinished() {
+  const std::lock_guard lock(mutex_);
+  record_.state = storage::JourneyState::kFinished;
+}
+
+void LiveJourney::MarkDeleted() {
+  const std::lock_guard lock(mutex_);
+  deleted_ = true;
+}
+
+void LiveJourney::AbsorbSteps() {
+  std::vector<JourneyStep> steps;
+  {
+    const std::lock_guard lock(mutex_);
+    if (map_state_ != MapState::kLoaded) return;
+    steps.swap(unabsorbed_);
+    if (std::exchange(settings_changed_, false)) {
+      map_.mutable_settings() = record_.settings;
+    }
+  }
+  for (const JourneyStep& step : steps) {
+    // What was loaded may hold it already.
+    if (step.step < map_.step_count()) continue;
+    // The disk took the same step under the same rules: it cannot fail here.
+    map_.Append(step).IgnoreError();
+  }
+}
+
+absl::Status LiveJourney::LoadMap() {
+  const std::lock_guard load_lock(load_mutex_);
+  {
+    const std::lock_guard lock(mutex_);
+    if (map_state_ == MapState::kLoaded) return absl::OkStatus();
+    map_state_ = MapState::kLoading;
+  }
+  absl::StatusOr<JourneyMap> map = store_->LoadMap(name_);
+  const std::lock_guard map_lock(map_mutex_);
+  const std::lock_guard lock(mutex_);
+  // Another of the same name may have been made since, and its map been read.
+  absl::Status status = deleted_ ? CheckPresent() : map.status();
+  if (!status.ok()) {
+    map_state_ = MapState::kNone;
+    unabsorbed_ = {};
+    return status;
+  }
+  map_ = *std::move(map);
+  map_state_ = MapState::kLoaded;
+  return absl::OkStatus();
+}
+
+bool LiveJourney::has_map() const {
+  const std::lock_guard lock(mutex_);
+  return map_state_ == MapState::kLoaded;
+}
+
+void LiveJourney::LockMap() {
+  bool behind = false;
+  {
+    const std::lock_guard lock(mutex_);
+    behind = !unabsorbed_.empty() || settings_changed_;
+  }
+  if (behind) {
+    map_mutex_.lock();
+    AbsorbSteps();
+    map_mutex_.unlock();
+  }
+  map_mutex_.lock_shared();
+}
+
+MapsLock::MapsLock(const LiveJourneys& journeys) : journeys_(journeys) {
+  for (const std::shared_ptr<LiveJourney>& journey : journeys_) {
+    journey->LockMap();
+  }
+}
+
+MapsLock::~MapsLock() {
+  for (const std::shared_ptr<LiveJourney>& journey : journeys_) {
+    journey->UnlockMap();
+  }
+}
+
+}  // namespace homing::server

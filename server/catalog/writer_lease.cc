@@ -1,0 +1,53 @@
+#include "server/catalog/writer_lease.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "absl/strings/str_cat.h"
+#include "server/base/error_reason.h"
+
+namespace homing::server {
+namespace {
+
+constexpr std::size_t kMaxWriterIdLength = 128;
+
+}  // namespace
+
+absl::Status CheckWriterId(const std::string& writer_id, const std::string& field) {
+  const bool printable =
+      std::all_of(writer_id.begin(), writer_id.end(), [](char c) { return c >= ' ' && c <= '~'; });
+  if (writer_id.size() > kMaxWriterIdLength || !printable) {
+    return absl::InvalidArgumentError(absl::StrCat(
+        field, " is ", writer_id.size(), " bytes; it must be up to 128 printable ASCII ones"));
+  }
+  return absl::OkStatus();
+}
+
+absl::Status WriterLease::CheckFree(const std::string& writer_id, TimePoint now) const {
+  if (!active_ || writer_id == writer_id_ || now - renewed_ >= kDuration) {
+    return absl::OkStatus();
+  }
+  const auto left =
+      std::chrono::duration_cast<std::chrono::milliseconds>(kDuration - (now - renewed_)).count();
+  return WithReason(
+      absl::AbortedError(absl::StrCat("writer_id is \"", writer_id,
+                                      "\"; another writer holds the journey, its lease of ",
+                                      kDuration.count(), " s lives for ", left, " ms more")),
+      {"WRITER_LEASE_HELD", {{"lease_left_ms", absl::StrCat(left)}}});
+}
+
+std::uint64_t WriterLease::Take(const std::string& writer_id, TimePoint now, Evict evict,
+                                Evict* previous) {
+  *previous = std::exchange(evict_, std::move(evict));
+  writer_id_ = writer_id;
+  active_ = true;
+  renewed_ = now;
+  return ++claim_;
+}
+
+WriterLease::Evict WriterLease::Release() {
+  active_ = false;
+  return std::exchange(evict_, nullptr);
+}
+
+}  // namespace homing::server

@@ -1,0 +1,20 @@
+// `homing-server certs` and `homing-server token`. Source: own design.
+#ifndef SERVER_CONFIG_ACCESS_COMMANDS_H_
+#define SERVER_CONFIG_ACCESS_COMMANDS_H_
+
+#include <string>
+
+#include "absl/status/status.h"
+#include "server/config/server_options.h"
+
+namespace homing::server {
+
+// Prints the paths of what it wrote. INVALID_ARGUMENT.
+absl::Status RunCerts(const CertificateOrder& order);
+
+// Adds to the file `tokens`; prints nothing of the token. INVALID_ARGUMENT.
+absl::Status RunToken(const TokenOrder& order, const std::string& tokens);
+
+}  // namespace homing::server
+
+#endif  // SERVER_CONFIG_ACCESS_COMMANDS_H_

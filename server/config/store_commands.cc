@@ -1,0 +1,87 @@
+#include "server/config/store_commands.h"
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <iostream>
+#include <vector>
+
+#include "storage/backup.h"
+#include "storage/doctor.h"
+
+namespace homing::server {
+namespace {
+
+constexpr char kScheme[] = "sqlite:";
+
+std::string PathOf(const std::string& url) {
+  return url.rfind(kScheme, 0) == 0 ? url.substr(sizeof(kScheme) - 1) : url;
+}
+
+int TellFailure(const absl::Status& status) {
+  std::cerr << "homing-server: " << std::string(status.message()) << '\n';
+  return 1;
+}
+
+void TellFinding(const std::string& kind, const storage::Finding& finding) {
+  std::cout << kind << ' ' << finding.name << ": ";
+  if (finding.status.ok()) {
+    std::cout << "whole";
+  } else {
+    std::cout << "DAMAGED: " << std::string(finding.status.message());
+  }
+  std::cout << '\n';
+}
+
+void TellDiagnosis(const std::string& path, const storage::Diagnosis& diagnosis) {
+  std::cout << path << ": schema version " << diagnosis.schema_version << '\n';
+  for (const std::string& problem : diagnosis.problems) {
+    std::cout << "problem: " << problem << '\n';
+  }
+  for (const storage::Finding& journey : diagnosis.journeys) TellFinding("journey", journey);
+  for (const storage::Finding& model : diagnosis.models) TellFinding("model", model);
+  std::cout << diagnosis.journeys.size() << " journeys, " << CountDamaged(diagnosis.journeys)
+            << " damaged; " << diagnosis.models.size() << " models, "
+            << CountDamaged(diagnosis.models) << " damaged; "
+            << (IsWhole(diagnosis) ? "the file is whole" : "the file is DAMAGED") << '\n';
+}
+
+}  // namespace
+
+StoreCommands::StoreCommands(CLI::App* app, ServerCommand* command)
+    : doctor_(app->add_subcommand("doctor", "Check a database; exit 0 if all of it is whole")),
+      backup_(app->add_subcommand("backup", "Copy a database, while a server uses it or not")) {
+  doctor_->fallthrough();
+  doctor_->add_option("file", command->store_path, "By default that of --database");
+  doctor_->add_option("--salvage", command->target_path, "New file: write what is whole into it");
+  backup_->fallthrough();
+  backup_->add_option("to", command->target_path, "New file")->required();
+}
+
+bool StoreCommands::Choose(ServerCommand* command) const {
+  if (!doctor_->parsed() && !backup_->parsed()) return false;
+  command->action =
+      doctor_->parsed() ? ServerCommand::Action::kDoctor : ServerCommand::Action::kBackup;
+  const bool named = !command->store_path.empty();
+  command->store_path = PathOf(named ? command->store_path : command->options.database);
+  return true;
+}
+
+int RunDoctor(const std::string& path, const std::string& salvage_to) {
+  const auto diagnosis =
+      salvage_to.empty() ? storage::Examine(path) : storage::Salvage(path, salvage_to);
+  if (!diagnosis.ok()) return TellFailure(diagnosis.status());
+  TellDiagnosis(path, *diagnosis);
+  if (!salvage_to.empty()) std::cout << "what is whole is in " << salvage_to << '\n';
+  return IsWhole(*diagnosis) ? 0 : 1;
+}
+
+int RunBackup(const std::string& path, const std::string& to) {
+  const absl::Status status = storage::BackUp(path, to);
+  if (!status.ok()) return TellFailure(status);
+  std::error_code ignored;
+  std::cout << "backed up " << path << " to " << to << ", "
+            << std::filesystem::file_size(to, ignored) << " bytes\n";
+  return 0;
+}
+
+}  // namespace homing::server

@@ -1,0 +1,52 @@
+// What the server counts, for Prometheus. Names: gRFC A66 for calls, Prometheus' rules for the
+// rest; no label takes values that a client chooses. Source: own design.
+#ifndef SERVER_METRICS_METRICS_H_
+#define SERVER_METRICS_METRICS_H_
+
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "absl/status/status.h"
+#include "absl/status/statusor.h"
+#include "homing/localization/localizer.h"
+#include "server/access/rpc.h"
+
+namespace homing::server {
+
+// Thread-safe.
+class Metrics {
+ public:
+  Metrics();
+  ~Metrics();
+  Metrics(const Metrics&) = delete;
+  Metrics& operator=(const Metrics&) = delete;
+
+  void CallStarted(Rpc rpc);
+  // Also counts the error by its reason: every limit has one.
+  void CallEnded(Rpc rpc, const absl::Status& status, double seconds);
+  // One observation of a stream.
+  void ObservationReceived(Rpc rpc);
+  void ObservationLocalized(Outcome outcome, double seconds);
+  // One transaction of recorded steps.
+  void Committed(int appends, bool ok, double seconds);
+
+  // A value asked for at each scrape, until RemoveGauges.
+  void AddGauge(const std::string& name, const std::string& help, std::function<double()> value);
+  // A limit as set, "homing_limit{limit=NAME}".
+  void SetLimit(const std::string& name, double value);
+  void RemoveGauges();
+
+  // In Prometheus' text format.
+  std::string Text() const;
+
+  struct State;
+  const std::shared_ptr<State>& state() const { return state_; }
+
+ private:
+  std::shared_ptr<State> state_;
+};
+
+}  // namespace homing::server
+
+#endif  // SERVER_METRICS_METRICS_H_

@@ -1,0 +1,106 @@
+// A method that answers with a file in chunks. Source: own design.
+#ifndef SERVER_RPC_CHUNK_STREAM_H_
+#define SERVER_RPC_CHUNK_STREAM_H_
+
+#include <grpcpp/support/server_callback.h>
+
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "absl/status/status.h"
+#include "absl/status/statusor.h"
+#include "server/rpc/incoming_call.h"
+#include "server/rpc/service_core.h"
+#include "server/rpc/status_conversion.h"
+#include "server/rpc/stream_watch.h"
+
+namespace homing::server {
+
+inline constexpr std::size_t kChunkBytes = 256 << 10;
+
+// A caller known no more, or one that does not move, is cut off.
+inline void CutOffIfStale(const IncomingCall& call, StreamWatch* watch) {
+  if (watch->IsIdle() || !call.CheckIdentity().ok()) {
+    watch->BreakOff();
+  }
+}
+
+// `Response` has a field `chunk`. Holds itself until gRPC has done with it.
+template <typename Response>
+class ChunkStream : public grpc::ServerWriteReactor<Response>,
+                    public OpenStream,
+                    public std::enable_shared_from_this<ChunkStream<Response>> {
+ public:
+  ChunkStream(ServiceCore* core, grpc::CallbackServerContext* context, Rpc rpc)
+      : core_(core), call_(core, *context, rpc), watch_(core, context) {}
+
+  void Open() {
+    self_ = this->shared_from_this();
+    absl::Status entered = call_.EnterStream();
+    if (!core_->streams.Add(self_)) {
+      entered = DrainingError();
+    }
+    if (entered.ok() && !core_->pool.TryRun([self = self_] { self->Begin(); })) {
+      entered = BusyError();
+    }
+    if (!entered.ok()) {
+      this->Finish(call_.Finish(entered));
+    }
+  }
+
+  // A file under way is let finish; the server's own deadline ends it.
+  void Drain() override {}
+  void Tick() override { CutOffIfStale(call_, &watch_); }
+
+  void OnWriteDone(bool ok) override {
+    watch_.Moved();
+    if (ok) {
+      WriteNext();
+    } else {
+      this->Finish(call_.Finish(absl::CancelledError("the client went away")));
+    }
+  }
+
+  void OnDone() override {
+    watch_.Forget();
+    const std::shared_ptr<ChunkStream> self = std::move(self_);
+    core_->streams.Remove(self);
+  }
+
+ protected:
+  // Makes the file, in a worker.
+  virtual absl::Status Prepare(ServiceCore* core, IncomingCall* call) = 0;
+  // What comes next, at most kChunkBytes; empty: that was all.
+  virtual absl::StatusOr<std::string> NextChunk() = 0;
+
+ private:
+  void Begin() {
+    const absl::Status status = Guarded([this] { return Prepare(core_, &call_); });
+    if (status.ok()) {
+      WriteNext();
+    } else {
+      this->Finish(call_.Finish(status));
+    }
+  }
+
+  void WriteNext() {
+    absl::StatusOr<std::string> chunk = NextChunk();
+    if (!chunk.ok() || chunk->empty()) {
+      this->Finish(call_.Finish(chunk.status()));
+      return;
+    }
+    response_.set_chunk(*std::move(chunk));
+    this->StartWrite(&response_);
+  }
+
+  ServiceCore* const core_;
+  IncomingCall call_;
+  StreamWatch watch_;
+  std::shared_ptr<ChunkStream> self_;
+  Response response_;
+};
+
+}  // namespace homing::server
+
+#endif  // SERVER_RPC_CHUNK_STREAM_H_

@@ -1,0 +1,120 @@
+#include "server/rpc/incoming_call.h"
+
+#include <grpc/grpc_security_constants.h>
+#include <grpcpp/security/auth_context.h>
+
+#include <vector>
+
+#include "absl/strings/str_cat.h"
+#include "homing/base/status_macros.h"
+#include "server/base/error_reason.h"
+#include "server/rpc/status_conversion.h"
+
+namespace homing::server {
+namespace {
+
+std::string TextOf(const grpc::string_ref& text) { return std::string(text.data(), text.size()); }
+
+std::vector<std::string> Properties(const grpc::AuthContext& context, const char* name) {
+  std::vector<std::string> values;
+  for (const grpc::string_ref& value : context.FindPropertyValues(name)) {
+    values.push_back(TextOf(value));
+  }
+  return values;
+}
+
+Credentials CredentialsOf(const grpc::ServerContextBase& context) {
+  Credentials credentials;
+  const auto [begin, end] = context.client_metadata().equal_range("authorization");
+  for (auto header = begin; header != end; ++header) {
+    credentials.authorizations.push_back(TextOf(header->second));
+  }
+  if (const auto peer = context.auth_context()) {
+    credentials.uris = Properties(*peer, GRPC_PEER_URI_PROPERTY_NAME);
+    // OpenSSL's chain is without the client's own certificate.
+    for (const char* part :
+         {GRPC_X509_PEM_CERT_PROPERTY_NAME, GRPC_X509_PEM_CERT_CHAIN_PROPERTY_NAME}) {
+      const auto pem = Properties(*peer, part);
+      credentials.certificate_pem += pem.empty() ? "" : pem.front();
+    }
+  }
+  return credentials;
+}
+
+// "robots/r" of what a request names; empty when it names none alone.
+std::string RobotNamed(const std::string& resource) {
+  const std::size_t slash = resource.find('/');
+  const std::string robot = resource.substr(0, resource.find('/', slash + 1));
+  return slash == std::string::npos || robot == "robots/-" ? "" : robot;
+}
+
+}  // namespace
+
+IncomingCall::IncomingCall(ServiceCore* core, const grpc::ServerContextBase& context, Rpc rpc)
+    : core_(core), rpc_(rpc), begin_(std::chrono::steady_clock::now()) {
+  core_->metrics->CallStarted(rpc_);
+  if (!core_->access->is_open()) {
+    credentials_ = CredentialsOf(context);
+  }
+  absl::StatusOr<Caller> caller = core_->access->Identify(credentials_);
+  identified_ = caller.status();
+  if (caller.ok()) {
+    caller_ = *std::move(caller);
+    robot_ = caller_.identity;
+  }
+}
+
+IncomingCall::~IncomingCall() {
+  if (!finished_) {
+    Finish(absl::CancelledError("the client went away"));
+  }
+}
+
+absl::Status IncomingCall::CheckIdentity() const {
+  HOMING_RETURN_IF_ERROR(identified_);
+  if (core_->access->is_open()) {
+    return absl::OkStatus();
+  }
+  HOMING_ASSIGN_OR_RETURN(const Caller now, core_->access->Identify(credentials_));
+  if (now.identity != caller_.identity || now.role != caller_.role) {
+    return WithReason(absl::UnauthenticatedError("the caller's role was changed; call again"),
+                      {"ROLE_CHANGED", {}});
+  }
+  return absl::OkStatus();
+}
+
+absl::Status IncomingCall::EnterStream() {
+  HOMING_RETURN_IF_ERROR(identified_);
+  const std::lock_guard lock(mutex_);
+  is_stream_ = true;
+  place_.Leave();
+  HOMING_ASSIGN_OR_RETURN(place_, core_->places.Enter(robot_));
+  return absl::OkStatus();
+}
+
+absl::Status IncomingCall::Authorize(const std::string& resource) {
+  HOMING_RETURN_IF_ERROR(identified_);
+  HOMING_RETURN_IF_ERROR(server::Authorize(caller_, rpc_, resource, &core_->catalog));
+  if (core_->access->is_open()) {
+    robot_ = RobotNamed(resource);
+    return is_stream_ ? EnterStream() : absl::OkStatus();
+  }
+  return absl::OkStatus();
+}
+
+absl::Status IncomingCall::TakeObservation() {
+  core_->metrics->ObservationReceived(rpc_);
+  return core_->rates.Take(robot_, core_->options.clock());
+}
+
+grpc::Status IncomingCall::Finish(const absl::Status& status) {
+  if (!finished_.exchange(true)) {
+    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin_;
+    core_->metrics->CallEnded(rpc_, status, elapsed.count());
+    const std::lock_guard lock(mutex_);
+    place_.Leave();
+  }
+  return ToGrpcStatus(status);
+}
+
+}  // namespace homing::server

@@ -1,0 +1,90 @@
+// What all handlers work with. Source: own design.
+#ifndef SERVER_RPC_SERVICE_CORE_H_
+#define SERVER_RPC_SERVICE_CORE_H_
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <memory>
+
+#include "homing/image/frame.h"
+#include "proto/wire/observation_conversion.h"
+#include "server/access/access_control.h"
+#include "server/admission/journey_quota.h"
+#include "server/admission/limits.h"
+#include "server/admission/rate_limiter.h"
+#include "server/admission/stream_limiter.h"
+#include "server/base/worker_pool.h"
+#include "server/catalog/fleet_index.h"
+#include "server/catalog/journey_catalog.h"
+#include "server/catalog/model_catalog.h"
+#include "server/metrics/metered_store.h"
+#include "server/metrics/metrics.h"
+#include "server/rpc/stream_registry.h"
+#include "server/session/recording_session.h"
+#include "storage/commit_queue.h"
+#include "storage/journey_store.h"
+
+namespace homing::server {
+
+struct CoreOptions {
+  // Threads that compute. [1, 1024].
+  int workers = 2;
+  DecodeLimits decode;
+  wire::WireLimits wire;
+  CatalogOptions catalog;
+  bool all_journeys_index = false;
+  Limits limits;
+  // Steady time for leases.
+  std::function<TimePoint()> clock = [] { return std::chrono::steady_clock::now(); };
+};
+
+// Members end in the reverse order: first the workers, then the commits that wait, then the store.
+struct ServiceCore {
+  ServiceCore(std::unique_ptr<storage::JourneyStore> opened,
+              std::shared_ptr<AccessControl> access_control, const CoreOptions& core_options)
+      : options(core_options),
+        metrics(std::make_unique<Metrics>()),
+        access(std::move(access_control)),
+        store(Metered(std::move(opened), metrics.get())),
+        index(core_options.all_journeys_index ? std::make_unique<FleetIndex>(store.get())
+                                              : nullptr),
+        catalog(store.get(), core_options.catalog, index.get()),
+        models(store.get()),
+        quota(&catalog, core_options.limits),
+        rates(core_options.limits.max_robot_rate),
+        places(core_options.limits),
+        queue(store.get()),
+        pool(core_options.workers) {}
+
+  RecordingContext recording() { return {&catalog, &queue, options.decode}; }
+
+  const CoreOptions options;
+  const std::unique_ptr<Metrics> metrics;
+  // Shared with the TLS handshake.
+  const std::shared_ptr<AccessControl> access;
+  const std::unique_ptr<storage::JourneyStore> store;
+  // Null: not asked for.
+  const std::unique_ptr<FleetIndex> index;
+  JourneyCatalog catalog;
+  ModelCatalog models;
+  JourneyQuota quota;
+  RateLimiter rates;
+  StreamLimiter places;
+  // Bytes of files that are being imported.
+  std::atomic<std::int64_t> import_bytes = 0;
+  storage::CommitQueue queue;
+  StreamRegistry streams;
+  WorkerPool pool;
+};
+
+// Server's clock, nanoseconds since the epoch.
+inline std::int64_t WallClockNs() {
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(
+             std::chrono::system_clock::now().time_since_epoch())
+      .count();
+}
+
+}  // namespace homing::server
+
+#endif  // SERVER_RPC_SERVICE_CORE_H_

@@ -1,0 +1,49 @@
+// When a stream last moved, and how to break it off. Source: own design.
+#ifndef SERVER_RPC_STREAM_WATCH_H_
+#define SERVER_RPC_STREAM_WATCH_H_
+
+#include <grpcpp/server_context.h>
+
+#include <atomic>
+#include <mutex>
+
+#include "server/rpc/service_core.h"
+
+namespace homing::server {
+
+// Thread-safe.
+class StreamWatch {
+ public:
+  StreamWatch(ServiceCore* core, grpc::ServerContextBase* context)
+      : core_(core), context_(context), moved_(core->options.clock()) {}
+
+  void Moved() { moved_ = core_->options.clock(); }
+  // Nothing moved for longer than idle_stream_s.
+  bool IsIdle() const {
+    const std::chrono::seconds most(core_->options.limits.idle_stream_s);
+    return most.count() > 0 && core_->options.clock() - moved_.load() > most;
+  }
+  // The client sees CANCELLED; what is under way ends as when the link breaks.
+  void BreakOff() {
+    const std::lock_guard lock(mutex_);
+    if (context_ != nullptr) {
+      context_->TryCancel();
+    }
+  }
+  // The context is gone: from OnDone.
+  void Forget() {
+    const std::lock_guard lock(mutex_);
+    context_ = nullptr;
+  }
+
+ private:
+  ServiceCore* const core_;
+  // Recursive: gRPC may call back, up to OnDone, before TryCancel returns.
+  std::recursive_mutex mutex_;
+  grpc::ServerContextBase* context_;
+  std::atomic<TimePoint> moved_;
+};
+
+}  // namespace homing::server
+
+#endif  // SERVER_RPC_STREAM_WATCH_H_

@@ -1,0 +1,45 @@
+// One unary RPC on the pool: I/O threads never compute. Source: own design.
+#ifndef SERVER_RPC_UNARY_CALL_H_
+#define SERVER_RPC_UNARY_CALL_H_
+
+#include <grpcpp/support/server_callback.h>
+
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "server/rpc/incoming_call.h"
+#include "server/rpc/service_core.h"
+#include "server/rpc/status_conversion.h"
+
+namespace homing::server {
+
+// `call` is absl::Status(const JourneyFilter&), made only if the caller may do this to `resource`;
+// it may use the request and the response of the RPC, which outlive it. Of a pattern it must take
+// what the filter lets through.
+template <typename Call>
+grpc::ServerUnaryReactor* ServeUnary(ServiceCore* core, grpc::CallbackServerContext* context,
+                                     Rpc rpc, const std::string& resource, Call call) {
+  grpc::ServerUnaryReactor* reactor = context->DefaultReactor();
+  const auto incoming = std::make_shared<IncomingCall>(core, *context, rpc);
+  absl::Status admitted = incoming->identified();
+  if (core->streams.draining()) {
+    admitted = DrainingError();
+  } else if (admitted.ok() &&
+             core->pool.TryRun([reactor, incoming, resource, call = std::move(call)] {
+               reactor->Finish(incoming->Finish(Guarded([&] {
+                 const absl::Status allowed = incoming->Authorize(resource);
+                 return allowed.ok() ? call(incoming->filter()) : allowed;
+               })));
+             })) {
+    return reactor;
+  } else if (admitted.ok()) {
+    admitted = BusyError();
+  }
+  reactor->Finish(incoming->Finish(admitted));
+  return reactor;
+}
+
+}  // namespace homing::server
+
+#endif  // SERVER_RPC_UNARY_CALL_H_

@@ -1,0 +1,133 @@
+#include "server/service/archive_streams.h"
+
+#include <utility>
+
+#include "absl/strings/str_cat.h"
+#include "homing/base/status_macros.h"
+#include "server/base/error_reason.h"
+#include "server/rpc/status_conversion.h"
+#include "server/service/journey_archive.h"
+#include "server/service/message_conversion.h"
+
+namespace homing::server {
+
+absl::Status ExportStream::Prepare(ServiceCore* core, IncomingCall* call) {
+  HOMING_RETURN_IF_ERROR(call->Authorize(name_));
+  HOMING_ASSIGN_OR_RETURN(const JourneyName name, ParseJourneyName(name_, "name"));
+  HOMING_ASSIGN_OR_RETURN(auto journey, core->catalog.Open(name.ToString()));
+  const LiveJourneys one = {std::move(journey)};
+  const MapsLock lock(one);
+  HOMING_ASSIGN_OR_RETURN(file_, EncodeJourney(one.front()->record(), one.front()->map()));
+  return absl::OkStatus();
+}
+
+absl::StatusOr<std::string> ExportStream::NextChunk() {
+  std::string chunk = file_.substr(written_, kChunkBytes);
+  written_ += chunk.size();
+  return chunk;
+}
+
+void ImportStream::Tick() { CutOffIfStale(call_, &watch_); }
+
+void ImportStream::Open() {
+  self_ = shared_from_this();
+  absl::Status entered = call_.EnterStream();
+  if (!core_->streams.Add(self_)) {
+    entered = DrainingError();
+  }
+  if (entered.ok()) {
+    StartRead(&request_);
+  } else {
+    FinishWith(entered);
+  }
+}
+
+absl::Status ImportStream::Take(const v1::ImportJourneyRequest& request) {
+  if (request.request_case() == v1::ImportJourneyRequest::kName) {
+    if (!name_.empty()) {
+      return absl::InvalidArgumentError("name came twice; only the first message is name");
+    }
+    name_ = request.name();
+    HOMING_RETURN_IF_ERROR(ParseJourneyName(name_, "name").status());
+    // A write goes by the name alone: nothing is looked up.
+    return call_.Authorize(name_);
+  }
+  if (name_.empty()) {
+    return absl::InvalidArgumentError("chunk came first; the first message must be name");
+  }
+  return TakeChunk(request.chunk());
+}
+
+absl::Status ImportStream::TakeChunk(const std::string& chunk) {
+  const auto bytes = static_cast<std::int64_t>(chunk.size());
+  const auto size = static_cast<std::int64_t>(file_.size()) + bytes;
+  if (size > static_cast<std::int64_t>(kMaxArchiveBytes)) {
+    return absl::InvalidArgumentError(absl::StrCat("chunk makes the file ", size,
+                                                   " bytes; at most ",
+                                                   static_cast<std::int64_t>(kMaxArchiveBytes)));
+  }
+  taken_ += bytes;
+  const std::int64_t most = core_->options.limits.memory_quota;
+  if ((core_->import_bytes += bytes) > most && most > 0) {
+    return WithReason(absl::ResourceExhaustedError(absl::StrCat(
+                          "the files being imported are more than memory-quota, ", most, " bytes")),
+                      {"IMPORT_MEMORY", {}});
+  }
+  file_ += chunk;
+  return absl::OkStatus();
+}
+
+void ImportStream::OnReadDone(bool ok) {
+  if (!ok) {
+    if (!core_->pool.TryRun([self = self_] { self->Complete(); })) {
+      FinishWith(BusyError());
+    }
+    return;
+  }
+  watch_.Moved();
+  const absl::Status status = Guarded([this] { return Take(request_); });
+  if (status.ok()) {
+    request_.Clear();
+    StartRead(&request_);
+  } else {
+    FinishWith(status);
+  }
+}
+
+absl::Status ImportStream::Store() {
+  if (name_.empty()) {
+    return absl::InvalidArgumentError("name is missing; the first message must be name");
+  }
+  HOMING_RETURN_IF_ERROR(core_->quota.CheckNew(name_));
+  HOMING_ASSIGN_OR_RETURN(ArchivedJourney archive, DecodeJourney(file_));
+  archive.record.name = name_;
+  archive.record.create_time_ns = WallClockNs();
+  HOMING_ASSIGN_OR_RETURN(const storage::JourneyRecord record,
+                          core_->catalog.Import(archive.record, archive.map));
+  *response_->mutable_journey() = EncodeJourneyRecord(record);
+  return absl::OkStatus();
+}
+
+void ImportStream::Complete() {
+  FinishWith(Guarded([this] { return Store(); }));
+}
+
+void ImportStream::FinishWith(const absl::Status& status) {
+  // Before the answer: who has it may import the next file.
+  FreeFile();
+  Finish(call_.Finish(status));
+}
+
+void ImportStream::FreeFile() {
+  file_ = {};
+  core_->import_bytes -= std::exchange(taken_, 0);
+}
+
+void ImportStream::OnDone() {
+  watch_.Forget();
+  FreeFile();
+  const std::shared_ptr<ImportStream> self = std::move(self_);
+  core_->streams.Remove(self);
+}
+
+}  // namespace homing::server

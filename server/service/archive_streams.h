@@ -1,0 +1,75 @@
+// JourneyService.ExportJourney and ImportJourney: a map as one file, in chunks.
+// Source: own design.
+#ifndef SERVER_SERVICE_ARCHIVE_STREAMS_H_
+#define SERVER_SERVICE_ARCHIVE_STREAMS_H_
+
+#include <grpcpp/support/server_callback.h>
+
+#include <memory>
+#include <string>
+
+#include "absl/status/status.h"
+#include "absl/status/statusor.h"
+#include "homing/v1/journey_service.pb.h"
+#include "server/rpc/chunk_stream.h"
+#include "server/rpc/incoming_call.h"
+#include "server/rpc/service_core.h"
+#include "server/rpc/stream_watch.h"
+
+namespace homing::server {
+
+class ExportStream final : public ChunkStream<v1::ExportJourneyResponse> {
+ public:
+  ExportStream(ServiceCore* core, grpc::CallbackServerContext* context, const std::string& name)
+      : ChunkStream(core, context, Rpc::kExportJourney), name_(name) {}
+
+ private:
+  absl::Status Prepare(ServiceCore* core, IncomingCall* call) override;
+  absl::StatusOr<std::string> NextChunk() override;
+
+  const std::string name_;
+  std::string file_;
+  std::size_t written_ = 0;
+};
+
+// Holds itself until gRPC has done with it.
+class ImportStream final : public grpc::ServerReadReactor<v1::ImportJourneyRequest>,
+                           public OpenStream,
+                           public std::enable_shared_from_this<ImportStream> {
+ public:
+  ImportStream(ServiceCore* core, grpc::CallbackServerContext* context,
+               v1::ImportJourneyResponse* response)
+      : core_(core),
+        call_(core, *context, Rpc::kImportJourney),
+        watch_(core, context),
+        response_(response) {}
+
+  void Open();
+  void Drain() override {}
+  void Tick() override;
+  void OnReadDone(bool ok) override;
+  void OnDone() override;
+
+ private:
+  absl::Status Take(const v1::ImportJourneyRequest& request);
+  absl::Status TakeChunk(const std::string& chunk);
+  absl::Status Store();
+  void Complete();
+  void FinishWith(const absl::Status& status);
+  void FreeFile();
+
+  ServiceCore* const core_;
+  IncomingCall call_;
+  StreamWatch watch_;
+  v1::ImportJourneyResponse* const response_;
+  std::shared_ptr<ImportStream> self_;
+  v1::ImportJourneyRequest request_;
+  std::string name_;
+  std::string file_;
+  // Of core_->import_bytes.
+  std::int64_t taken_ = 0;
+};
+
+}  // namespace homing::server
+
+#endif  // SERVER_SERVICE_ARCHIVE_STREAMS_H_

@@ -1,0 +1,33 @@
+#include "server/service/homing_service.h"
+
+#include "homing/base/status_macros.h"
+#include "server/rpc/unary_call.h"
+#include "server/service/localize_stream.h"
+#include "server/service/message_conversion.h"
+
+namespace homing::server {
+
+grpc::ServerUnaryReactor* HomingServiceHandler::MatchLandmarks(
+    grpc::CallbackServerContext* context, const v1::MatchLandmarksRequest* request,
+    v1::MatchLandmarksResponse* response) {
+  return ServeUnary(core_, context, Rpc::kMatchLandmarks, request->journey(),
+                    [core = core_, request, response](const JourneyFilter& filter) -> absl::Status {
+                      HOMING_ASSIGN_OR_RETURN(LandmarkQuery query,
+                                              DecodeLandmarkQuery(*request, core->options.wire));
+                      query.filter = filter;
+                      HOMING_ASSIGN_OR_RETURN(
+                          const LandmarkQueryResult result,
+                          server::MatchLandmarks(&core->catalog, query, core->options.decode));
+                      *response = EncodeQueryResult(result);
+                      return absl::OkStatus();
+                    });
+}
+
+grpc::ServerBidiReactor<v1::LocalizeRequest, v1::LocalizeResponse>* HomingServiceHandler::Localize(
+    grpc::CallbackServerContext* context) {
+  const auto stream = std::make_shared<LocalizeStream>(core_, context);
+  stream->Open();
+  return stream.get();
+}
+
+}  // namespace homing::server

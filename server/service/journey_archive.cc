@@ -1,0 +1,241 @@
+#include "server/service/journey_archive.h"
+
+#include <google/protobuf/io/coded_stream.h>
+#include <google/protobuf/io/zero_copy_stream_impl_lite.h>
+#include <zlib.h>
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "absl/status/status.h"
+#include "absl/strings/str_cat.h"
+#include "homing/base/status_macros.h"
+#include "homing/landmark/profile_code.h"
+#include "homing/v1/journey_map.pb.h"
+#include "proto/wire/enum_conversion.h"
+#include "proto/wire/settings_conversion.h"
+
+namespace homing::server {
+namespace {
+
+// The last byte is the version.
+constexpr std::string_view kMagic = "HOMINGJ\x01";
+constexpr std::size_t kChecksumBytes = 4;
+
+absl::Status Damaged(const std::string& what) {
+  return absl::InvalidArgumentError(absl::StrCat("journey file: ", what));
+}
+
+// CRC-32 as in zlib, least significant byte first.
+std::string Checksum(std::string_view bytes) {
+  const uLong crc = crc32_z(0, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size());
+  std::string text;
+  for (int shift = 0; shift < 32; shift += 8) {
+    text.push_back(static_cast<char>((crc >> shift) & 0xff));
+  }
+  return text;
+}
+
+void DeviationToProto(const DeviationModel& model, v1::DeviationValues* message) {
+  message->set_mu(model.mu);
+  message->set_sigma(model.sigma);
+  message->set_observations(model.observations);
+  message->set_ks_distance(model.ks_distance);
+  message->set_width(model.width);
+  message->set_height(model.height);
+}
+
+DeviationModel DeviationFromProto(const v1::DeviationValues& message) {
+  DeviationModel model;
+  model.mu = message.mu();
+  model.sigma = message.sigma();
+  model.observations = message.observations();
+  model.ks_distance = message.ks_distance();
+  model.width = message.width();
+  model.height = message.height();
+  return model;
+}
+
+using Profiles = google::protobuf::RepeatedPtrField<std::string>;
+
+void ProfilesToProto(std::span<const FlowProfile> profiles, Profiles* column) {
+  for (const FlowProfile& profile : profiles) {
+    *column->Add() = EncodeProfile(profile);
+  }
+}
+
+v1::JourneyMap MapToProto(const storage::JourneyRecord& record, const JourneyMap& map) {
+  v1::JourneyMap message;
+  *message.mutable_settings() = wire::ToProto(map.settings());
+  DeviationToProto(map.settings().deviation_model, message.mutable_deviation());
+  message.set_step_count(map.step_count());
+  message.set_start_time_ns(record.start_time_ns);
+  message.set_end_time_ns(record.end_time_ns);
+  for (const Landmark& landmark : map.landmarks()) {
+    message.add_landmark_sides(wire::ToProto(landmark.side));
+    message.add_landmark_spreads(landmark.spread);
+  }
+  for (std::int64_t step = 0; step < map.step_count(); ++step) {
+    const auto fingerprints = map.fingerprints(step);
+    message.add_fingerprints_per_step(static_cast<std::uint32_t>(fingerprints.size()));
+    for (const Fingerprint& fingerprint : fingerprints) {
+      message.add_landmarks(fingerprint.landmark);
+      message.add_xs(fingerprint.x);
+      message.add_ys(fingerprint.y);
+      message.add_counts(fingerprint.count);
+    }
+  }
+  ProfilesToProto(map.profiles(Side::kLeft), message.mutable_left_profiles());
+  ProfilesToProto(map.profiles(Side::kRight), message.mutable_right_profiles());
+  return message;
+}
+
+absl::Status CheckTooLarge(std::size_t size) {
+  if (size <= kMaxArchiveBytes) return absl::OkStatus();
+  return Damaged(absl::StrCat("is ", size, " bytes: must be at most ", kMaxArchiveBytes));
+}
+
+// The message between magic and checksum.
+absl::StatusOr<v1::JourneyMap> Unwrap(std::string_view bytes) {
+  HOMING_RETURN_IF_ERROR(CheckTooLarge(bytes.size()));
+  if (bytes.substr(0, kMagic.size()) != kMagic) return Damaged("does not begin as one");
+  if (bytes.size() < kMagic.size() + kChecksumBytes) return Damaged("ends too early");
+  const std::string_view content = bytes.substr(0, bytes.size() - kChecksumBytes);
+  if (Checksum(content) != bytes.substr(content.size())) {
+    return Damaged("checksum does not agree: truncated or changed");
+  }
+  v1::JourneyMap message;
+  const std::string_view body = content.substr(kMagic.size());
+  if (!message.ParseFromArray(body.data(), static_cast<int>(body.size()))) {
+    return Damaged("content cannot be parsed");
+  }
+  return message;
+}
+
+absl::Status CheckSize(const char* field, std::int64_t size, std::int64_t expected) {
+  if (size == expected) return absl::OkStatus();
+  return Damaged(absl::StrCat(field, " has ", size, " entries: must have ", expected));
+}
+
+absl::Status CheckColumns(const v1::JourneyMap& message) {
+  if (message.step_count() < 0 || message.step_count() > kMostSteps) {
+    return Damaged(
+        absl::StrCat("step_count is ", message.step_count(), ": must be 0 to ", kMostSteps));
+  }
+  if (message.start_time_ns() < 0 || message.end_time_ns() < 0) {
+    return Damaged("start_time_ns or end_time_ns is negative");
+  }
+  HOMING_RETURN_IF_ERROR(CheckSize("fingerprints_per_step", message.fingerprints_per_step_size(),
+                                   message.step_count()));
+  HOMING_RETURN_IF_ERROR(CheckSize("landmark_spreads", message.landmark_spreads_size(),
+                                   message.landmark_sides_size()));
+  std::int64_t fingerprints = 0;
+  for (std::uint32_t of_step : message.fingerprints_per_step()) fingerprints += of_step;
+  HOMING_RETURN_IF_ERROR(CheckSize("landmarks", message.landmarks_size(), fingerprints));
+  HOMING_RETURN_IF_ERROR(CheckSize("xs", message.xs_size(), fingerprints));
+  HOMING_RETURN_IF_ERROR(CheckSize("ys", message.ys_size(), fingerprints));
+  return CheckSize("counts", message.counts_size(), fingerprints);
+}
+
+absl::StatusOr<JourneySettings> SettingsOf(const v1::JourneyMap& message) {
+  const v1::JourneySettings& settings = message.settings();
+  if (!settings.has_left_camera() || !settings.has_right_camera() || !settings.has_flow() ||
+      !settings.has_landmark() || !message.has_deviation()) {
+    return Damaged("settings are incomplete");
+  }
+  HOMING_ASSIGN_OR_RETURN(JourneySettings result,
+                          wire::FromProto(settings, "settings", JourneySettings()));
+  result.deviation_model = DeviationFromProto(message.deviation());
+  HOMING_RETURN_IF_ERROR(Validate(result));
+  return result;
+}
+
+// Entry `index` of the fingerprint columns. The landmark's mean spread stands for that of each of
+// its steps: a running mean of equal values is that value, to the bit.
+absl::StatusOr<RecordedFingerprint> FingerprintAt(const v1::JourneyMap& message, int index) {
+  const std::int32_t landmark = message.landmarks(index);
+  if (landmark < 0 || landmark >= message.landmark_sides_size()) {
+    return Damaged(absl::StrCat("landmarks[", index, "] is ", landmark, ": must be 0 to ",
+                                message.landmark_sides_size() - 1));
+  }
+  RecordedFingerprint recorded;
+  HOMING_ASSIGN_OR_RETURN(recorded.side,
+                          wire::FromProto(message.landmark_sides(landmark),
+                                          absl::StrCat("landmark_sides[", landmark, "]")));
+  recorded.spread = message.landmark_spreads(landmark);
+  recorded.fingerprint = {message.xs(index), message.ys(index), message.counts(index), landmark};
+  return recorded;
+}
+
+absl::Status AppendSteps(const v1::JourneyMap& message, JourneyMap& map) {
+  int index = 0;
+  JourneyStep step;
+  for (std::int64_t number = 0; number < message.step_count(); ++number) {
+    step.step = number;
+    step.fingerprints.clear();
+    const int end =
+        index + static_cast<int>(message.fingerprints_per_step(static_cast<int>(number)));
+    for (; index < end; ++index) {
+      HOMING_ASSIGN_OR_RETURN(RecordedFingerprint recorded, FingerprintAt(message, index));
+      step.fingerprints.push_back(recorded);
+    }
+    const absl::Status status = map.Append(step);
+    if (!status.ok()) return Damaged(std::string(status.message()));
+  }
+  return CheckSize("landmark_sides", message.landmark_sides_size(),
+                   static_cast<std::int64_t>(map.landmarks().size()));
+}
+
+absl::Status SetProfiles(const char* field, const Profiles& column, Side side, JourneyMap& map) {
+  if (column.empty()) return absl::OkStatus();
+  HOMING_RETURN_IF_ERROR(CheckSize(field, column.size(), map.step_count()));
+  std::int64_t step = 0;
+  for (const std::string& bytes : column) {
+    const auto profile = DecodeProfile(bytes);
+    if (!profile.ok()) return Damaged(absl::StrCat(field, "[", step, "] is no flow profile"));
+    map.set_profile(step++, side, *profile);
+  }
+  return absl::OkStatus();
+}
+
+}  // namespace
+
+absl::StatusOr<std::string> EncodeJourney(const storage::JourneyRecord& record,
+                                          const JourneyMap& map) {
+  const v1::JourneyMap message = MapToProto(record, map);
+  HOMING_RETURN_IF_ERROR(CheckTooLarge(kMagic.size() + message.ByteSizeLong() + kChecksumBytes));
+  std::string bytes(kMagic);
+  {
+    google::protobuf::io::StringOutputStream stream(&bytes);
+    google::protobuf::io::CodedOutputStream coded(&stream);
+    coded.SetSerializationDeterministic(true);
+    if (!message.SerializeToCodedStream(&coded)) {
+      return absl::InternalError("journey file: cannot be written");
+    }
+  }
+  return bytes + Checksum(bytes);
+}
+
+absl::StatusOr<ArchivedJourney> DecodeJourney(std::string_view bytes) {
+  HOMING_ASSIGN_OR_RETURN(const v1::JourneyMap message, Unwrap(bytes));
+  HOMING_RETURN_IF_ERROR(CheckColumns(message));
+  ArchivedJourney journey;
+  HOMING_ASSIGN_OR_RETURN(journey.record.settings, SettingsOf(message));
+  journey.record.state = storage::JourneyState::kFinished;
+  journey.record.start_time_ns = message.start_time_ns();
+  journey.record.end_time_ns = message.end_time_ns();
+  journey.record.next_sequence = message.step_count();
+  journey.map = JourneyMap(journey.record.settings);
+  HOMING_RETURN_IF_ERROR(AppendSteps(message, journey.map));
+  HOMING_RETURN_IF_ERROR(
+      SetProfiles("left_profiles", message.left_profiles(), Side::kLeft, journey.map));
+  HOMING_RETURN_IF_ERROR(
+      SetProfiles("right_profiles", message.right_profiles(), Side::kRight, journey.map));
+  // One map, one file: what this program would write differently is not taken.
+  HOMING_ASSIGN_OR_RETURN(const std::string again, EncodeJourney(journey.record, journey.map));
+  if (again != bytes) return Damaged("holds something that this program does not know");
+  return journey;
+}
+
+}  // namespace homing::server

@@ -1,0 +1,118 @@
+#include "server/service/journey_service.h"
+
+#include "homing/base/status_macros.h"
+#include "server/rpc/unary_call.h"
+#include "server/service/archive_streams.h"
+#include "server/service/journey_requests.h"
+#include "server/service/message_conversion.h"
+#include "server/service/record_stream.h"
+
+namespace homing::server {
+
+grpc::ServerUnaryReactor* JourneyServiceHandler::CreateJourney(
+    grpc::CallbackServerContext* context, const v1::CreateJourneyRequest* request,
+    v1::Journey* response) {
+  return ServeUnary(
+      core_, context, Rpc::kCreateJourney, request->parent(),
+      [core = core_, request, response](const JourneyFilter& /*all*/) -> absl::Status {
+        HOMING_ASSIGN_OR_RETURN(const storage::JourneyRecord wanted,
+                                DecodeCreateJourney(*request, &core->models, WallClockNs()));
+        HOMING_RETURN_IF_ERROR(core->quota.CheckNew(wanted.name));
+        HOMING_ASSIGN_OR_RETURN(const storage::JourneyRecord made, core->catalog.Create(wanted));
+        *response = EncodeJourneyRecord(made);
+        return absl::OkStatus();
+      });
+}
+
+grpc::ServerUnaryReactor* JourneyServiceHandler::GetJourney(grpc::CallbackServerContext* context,
+                                                            const v1::GetJourneyRequest* request,
+                                                            v1::Journey* response) {
+  return ServeUnary(
+      core_, context, Rpc::kGetJourney, request->name(),
+      [core = core_, request, response](const JourneyFilter& /*all*/) -> absl::Status {
+        HOMING_ASSIGN_OR_RETURN(const JourneyName name, ParseJourneyName(request->name(), "name"));
+        HOMING_ASSIGN_OR_RETURN(const storage::JourneyRecord record,
+                                core->catalog.Get(name.ToString()));
+        *response = EncodeJourneyRecord(record);
+        return absl::OkStatus();
+      });
+}
+
+grpc::ServerUnaryReactor* JourneyServiceHandler::ListJourneys(
+    grpc::CallbackServerContext* context, const v1::ListJourneysRequest* request,
+    v1::ListJourneysResponse* response) {
+  return ServeUnary(core_, context, Rpc::kListJourneys, request->parent(),
+                    [core = core_, request, response](const JourneyFilter& filter) -> absl::Status {
+                      return ListJourneyPage(*request, &core->catalog, filter, response);
+                    });
+}
+
+grpc::ServerUnaryReactor* JourneyServiceHandler::DeleteJourney(
+    grpc::CallbackServerContext* context, const v1::DeleteJourneyRequest* request,
+    v1::DeleteJourneyResponse* /*response*/) {
+  return ServeUnary(core_, context, Rpc::kDeleteJourney, request->name(),
+                    [core = core_, request](const JourneyFilter& /*all*/) -> absl::Status {
+                      HOMING_ASSIGN_OR_RETURN(const JourneyName name,
+                                              ParseJourneyName(request->name(), "name"));
+                      return core->catalog.Delete(name.ToString());
+                    });
+}
+
+grpc::ServerUnaryReactor* JourneyServiceHandler::FinishJourney(
+    grpc::CallbackServerContext* context, const v1::FinishJourneyRequest* request,
+    v1::FinishJourneyResponse* response) {
+  return ServeUnary(
+      core_, context, Rpc::kFinishJourney, request->name(),
+      [core = core_, request, response](const JourneyFilter& /*all*/) -> absl::Status {
+        HOMING_ASSIGN_OR_RETURN(const JourneyName name, ParseJourneyName(request->name(), "name"));
+        HOMING_RETURN_IF_ERROR(CheckWriterId(request->writer_id(), "writer_id"));
+        HOMING_ASSIGN_OR_RETURN(
+            const storage::JourneyRecord record,
+            core->catalog.Finish(name.ToString(), request->writer_id(), core->options.clock()));
+        *response->mutable_journey() = EncodeJourneyRecord(record);
+        return absl::OkStatus();
+      });
+}
+
+grpc::ServerUnaryReactor* JourneyServiceHandler::ListLandmarks(
+    grpc::CallbackServerContext* context, const v1::ListLandmarksRequest* request,
+    v1::ListLandmarksResponse* response) {
+  return ServeUnary(
+      core_, context, Rpc::kListLandmarks, request->parent(),
+      [core = core_, request, response](const JourneyFilter& /*all*/) -> absl::Status {
+        return ListLandmarkPage(*request, &core->catalog, response);
+      });
+}
+
+grpc::ServerUnaryReactor* JourneyServiceHandler::AnalyzeAliasing(
+    grpc::CallbackServerContext* context, const v1::AnalyzeAliasingRequest* request,
+    v1::AnalyzeAliasingResponse* response) {
+  return ServeUnary(
+      core_, context, Rpc::kAnalyzeAliasing, request->name(),
+      [core = core_, request, response](const JourneyFilter& /*all*/) -> absl::Status {
+        return DescribeAliasing(*request, &core->catalog, response);
+      });
+}
+
+grpc::ServerBidiReactor<v1::RecordJourneyRequest, v1::RecordJourneyResponse>*
+JourneyServiceHandler::RecordJourney(grpc::CallbackServerContext* context) {
+  const auto stream = std::make_shared<RecordStream>(core_, context);
+  stream->Open();
+  return stream.get();
+}
+
+grpc::ServerWriteReactor<v1::ExportJourneyResponse>* JourneyServiceHandler::ExportJourney(
+    grpc::CallbackServerContext* context, const v1::ExportJourneyRequest* request) {
+  const auto stream = std::make_shared<ExportStream>(core_, context, request->name());
+  stream->Open();
+  return stream.get();
+}
+
+grpc::ServerReadReactor<v1::ImportJourneyRequest>* JourneyServiceHandler::ImportJourney(
+    grpc::CallbackServerContext* context, v1::ImportJourneyResponse* response) {
+  const auto stream = std::make_shared<ImportStream>(core_, context, response);
+  stream->Open();
+  return stream.get();
+}
+
+}  // namespace homing::server

@@ -1,0 +1,49 @@
+#include "server/service/localize_stream.h"
+
+#include "homing/base/status_macros.h"
+#include "server/service/message_conversion.h"
+
+namespace homing::server {
+
+absl::Status LocalizeStream::Handle(const v1::LocalizeRequest& request) {
+  switch (request.request_case()) {
+    case v1::LocalizeRequest::kConfig:
+      return Begin(request.config());
+    case v1::LocalizeRequest::kObservation:
+      return Localize(request.observation());
+    case v1::LocalizeRequest::REQUEST_NOT_SET:
+      break;
+  }
+  return absl::InvalidArgumentError("request is empty; it must be config or observation");
+}
+
+absl::Status LocalizeStream::Begin(const v1::LocalizeConfig& config) {
+  if (session_) {
+    return absl::InvalidArgumentError("config came twice; only the first message is config");
+  }
+  HOMING_RETURN_IF_ERROR(call().Authorize(config.journey()));
+  HOMING_ASSIGN_OR_RETURN(HomingQuery query, DecodeHomingQuery(config));
+  query.filter = call().filter();
+  HOMING_ASSIGN_OR_RETURN(
+      session_, LocalizationSession::Open(&core()->catalog, query, core()->options.decode));
+  NoAnswer();
+  return absl::OkStatus();
+}
+
+absl::Status LocalizeStream::Localize(const v1::Observation& observation) {
+  if (!session_) {
+    return absl::InvalidArgumentError("observation came first; the first message must be config");
+  }
+  HOMING_RETURN_IF_ERROR(call().TakeObservation());
+  const TimePoint begin = std::chrono::steady_clock::now();
+  HOMING_ASSIGN_OR_RETURN(const Observation decoded,
+                          wire::FromProto(observation, core()->options.wire));
+  HOMING_ASSIGN_OR_RETURN(const Localization localization, session_->Localize(decoded));
+  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin;
+  core()->metrics->ObservationLocalized(localization.position.outcome, elapsed.count());
+  Answer(
+      [&](v1::LocalizeResponse* answer) { EncodeLocalization(localization, *session_, answer); });
+  return absl::OkStatus();
+}
+
+}  // namespace homing::server

@@ -1,0 +1,31 @@
+// HomingService.Localize. Source: own design.
+#ifndef SERVER_SERVICE_LOCALIZE_STREAM_H_
+#define SERVER_SERVICE_LOCALIZE_STREAM_H_
+
+#include <memory>
+
+#include "homing/v1/homing_service.pb.h"
+#include "server/rpc/bidi_stream.h"
+#include "server/session/localization_session.h"
+
+namespace homing::server {
+
+class LocalizeStream final : public BidiStream<v1::LocalizeRequest, v1::LocalizeResponse> {
+ public:
+  LocalizeStream(ServiceCore* core, grpc::CallbackServerContext* context)
+      : BidiStream(core, context, Rpc::kLocalize) {}
+
+ protected:
+  absl::Status Handle(const v1::LocalizeRequest& request) override;
+  void HandleDone() override { session_.reset(); }
+
+ private:
+  absl::Status Begin(const v1::LocalizeConfig& config);
+  absl::Status Localize(const v1::Observation& observation);
+
+  std::unique_ptr<LocalizationSession> session_;
+};
+
+}  // namespace homing::server
+
+#endif  // SERVER_SERVICE_LOCALIZE_STREAM_H_

@@ -1,0 +1,88 @@
+#include "server/service/record_stream.h"
+
+#include <utility>
+
+#include "absl/strings/str_cat.h"
+#include "homing/base/range_check.h"
+#include "homing/base/status_macros.h"
+#include "server/service/message_conversion.h"
+
+namespace homing::server {
+namespace {
+
+// How often a stream asks whether its robot still has room: it may go over by as many.
+constexpr std::int64_t kQuotaEvery = 256;
+
+}  // namespace
+
+absl::Status RecordStream::Handle(const v1::RecordJourneyRequest& request) {
+  switch (request.request_case()) {
+    case v1::RecordJourneyRequest::kConfig:
+      return Begin(request.config());
+    case v1::RecordJourneyRequest::kObservation:
+      return Record(request.observation());
+    case v1::RecordJourneyRequest::REQUEST_NOT_SET:
+      break;
+  }
+  return absl::InvalidArgumentError("request is empty; it must be config or observation");
+}
+
+absl::Status RecordStream::Begin(const v1::RecordingConfig& config) {
+  if (session_) {
+    return absl::InvalidArgumentError("config came twice; only the first message is config");
+  }
+  HOMING_RETURN_IF_ERROR(call().Authorize(config.journey()));
+  HOMING_RETURN_IF_ERROR(core()->quota.CheckGrowth(config.journey()));
+  journey_ = config.journey();
+  const std::weak_ptr<BidiStream> weak = weak_from_this();
+  RecordingListener listener;
+  listener.answer = [weak](const RecordingAnswer& answer) {
+    if (const auto stream = std::static_pointer_cast<RecordStream>(weak.lock())) {
+      stream->Answer(
+          [&](v1::RecordJourneyResponse* message) { EncodeRecordingAnswer(answer, message); });
+    }
+  };
+  listener.end = [weak](const absl::Status& status) {
+    if (const auto stream = std::static_pointer_cast<RecordStream>(weak.lock())) {
+      stream->End(status);
+    }
+  };
+  HOMING_ASSIGN_OR_RETURN(
+      session_, RecordingSession::Open(core()->recording(), config.journey(), config.writer_id(),
+                                       core()->options.clock(), std::move(listener)));
+  return absl::OkStatus();
+}
+
+absl::Status RecordStream::Record(const v1::Observation& observation) {
+  if (!session_) {
+    return absl::InvalidArgumentError("observation came first; the first message must be config");
+  }
+  if (const absl::Status status = CheckLimits(); !status.ok()) {
+    session_->Reject(status);
+    return absl::OkStatus();
+  }
+  const auto decoded = wire::FromProto(observation, core()->options.wire);
+  if (decoded.ok()) {
+    session_->Record(*decoded, core()->options.clock());
+  } else {
+    session_->Reject(
+        Within(absl::StrCat("observation[", observation.sequence(), "]"), decoded.status()));
+  }
+  return absl::OkStatus();
+}
+
+absl::Status RecordStream::CheckLimits() {
+  HOMING_RETURN_IF_ERROR(call().TakeObservation());
+  return ++observations_ % kQuotaEvery == 0 ? core()->quota.CheckGrowth(journey_)
+                                            : absl::OkStatus();
+}
+
+void RecordStream::HandleDrain() {
+  if (session_) {
+    session_->Reject(DrainingError());
+  } else {
+    End(DrainingError());
+  }
+}
+
+}  // namespace homing::server

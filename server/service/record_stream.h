@@ -1,0 +1,36 @@
+// JourneyService.RecordJourney. Source: own design (resumable recording).
+#ifndef SERVER_SERVICE_RECORD_STREAM_H_
+#define SERVER_SERVICE_RECORD_STREAM_H_
+
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "homing/v1/journey_service.pb.h"
+#include "server/rpc/bidi_stream.h"
+
+namespace homing::server {
+
+class RecordStream final : public BidiStream<v1::RecordJourneyRequest, v1::RecordJourneyResponse> {
+ public:
+  RecordStream(ServiceCore* core, grpc::CallbackServerContext* context)
+      : BidiStream(core, context, Rpc::kRecordJourney) {}
+
+ protected:
+  absl::Status Handle(const v1::RecordJourneyRequest& request) override;
+  void HandleDrain() override;
+  void HandleDone() override { session_.reset(); }
+
+ private:
+  absl::Status Begin(const v1::RecordingConfig& config);
+  absl::Status Record(const v1::Observation& observation);
+  absl::Status CheckLimits();
+
+  std::shared_ptr<RecordingSession> session_;
+  std::string journey_;
+  std::int64_t observations_ = 0;
+};
+
+}  // namespace homing::server
+
+#endif  // SERVER_SERVICE_RECORD_STREAM_H_

@@ -1,0 +1,107 @@
+#include "server/session/localization_session.h"
+
+#include <utility>
+#include <vector>
+
+#include "absl/strings/str_cat.h"
+#include "homing/base/range_check.h"
+#include "homing/base/status_macros.h"
+#include "server/base/error_reason.h"
+
+namespace homing::server {
+namespace {
+
+// Size of what one camera sent; a compressed frame that does not say it is decoded for it.
+absl::Status MeasureView(const CameraView& view, const DecodeLimits& limits, int* width,
+                         int* height) {
+  if (const auto* flow = std::get_if<FlowField>(&view)) {
+    *width = flow->width;
+    *height = flow->height;
+  } else if (const auto* frame = std::get_if<Frame>(&view)) {
+    HOMING_ASSIGN_OR_RETURN(const cv::Mat image, DecodeGray(*frame, limits));
+    *width = image.cols;
+    *height = image.rows;
+  }
+  return absl::OkStatus();
+}
+
+QueryRobot RobotOf(const HomingQuery& query) {
+  QueryRobot robot;
+  robot.travel = query.travel;
+  robot.cameras = query.cameras;
+  return robot;
+}
+
+std::vector<JourneyRef> RefsOf(const LiveJourneys& journeys) {
+  std::vector<JourneyRef> refs;
+  for (const std::shared_ptr<LiveJourney>& journey : journeys) {
+    refs.push_back({&journey->name(), &journey->map()});
+  }
+  return refs;
+}
+
+}  // namespace
+
+absl::StatusOr<std::unique_ptr<LocalizationSession>> LocalizationSession::Open(
+    JourneyCatalog* catalog, const HomingQuery& query, const DecodeLimits& limits) {
+  HOMING_ASSIGN_OR_RETURN(JourneyName pattern,
+                          ParseJourneyPattern(query.journey, "config.journey"));
+  HOMING_RETURN_IF_ERROR(Validate(query.match));
+  HOMING_RETURN_IF_ERROR(Validate(query.position));
+  for (const std::optional<Camera>& camera : query.cameras) {
+    HOMING_RETURN_IF_ERROR(camera ? Validate(*camera) : absl::OkStatus());
+  }
+  std::unique_ptr<LocalizationSession> session(
+      new LocalizationSession(query, std::move(pattern), limits));
+  HOMING_ASSIGN_OR_RETURN(session->journeys_, catalog->Resolve(session->pattern_, query.filter));
+  HOMING_RETURN_IF_ERROR(
+      SelectJourneys(session->journeys_, session->pattern_, RobotOf(query)).status());
+  return session;
+}
+
+absl::Status LocalizationSession::CheckSequence(std::int64_t sequence) {
+  if (sequence < 0) {
+    return absl::InvalidArgumentError(
+        absl::StrCat("observation.sequence is ", sequence, "; numbers begin at 0"));
+  }
+  if (due_ && sequence != *due_) {
+    return WithReason(absl::OutOfRangeError(absl::StrCat("observation.sequence is ", sequence, "; ",
+                                                         *due_, " is due")),
+                      {"SEQUENCE_GAP", {{"due", absl::StrCat(*due_)}}});
+  }
+  return absl::OkStatus();
+}
+
+absl::Status LocalizationSession::Start(const Observation& observation) {
+  QueryRobot robot = RobotOf(query_);
+  for (std::size_t side = 0; side < observation.views.size(); ++side) {
+    HOMING_RETURN_IF_ERROR(Within(
+        side == 0 ? "left" : "right",
+        MeasureView(observation.views[side], limits_, &robot.widths[side], &robot.heights[side])));
+  }
+  HOMING_ASSIGN_OR_RETURN(JourneySelection selection, SelectJourneys(journeys_, pattern_, robot));
+  selection.options.match = query_.match;
+  selection.options.position = query_.position;
+  HOMING_RETURN_IF_ERROR(Validate(selection.options));
+  journeys_ = std::move(selection.journeys);
+  localizer_.emplace(selection.options, limits_);
+  return absl::OkStatus();
+}
+
+absl::StatusOr<Localization> LocalizationSession::Localize(const Observation& observation) {
+  HOMING_RETURN_IF_ERROR(CheckSequence(observation.sequence));
+  if (!localizer_) {
+    HOMING_RETURN_IF_ERROR(Start(observation));
+  }
+  if (!pattern_.is_pattern() && journeys_.front()->deleted()) {
+    return absl::NotFoundError(
+        absl::StrCat("journey is \"", pattern_.ToString(), "\"; it was deleted"));
+  }
+  const MapsLock lock(journeys_);
+  HOMING_ASSIGN_OR_RETURN(Localization result,
+                          localizer_->Localize(observation, RefsOf(journeys_)));
+  due_ = observation.sequence + 1;
+  return result;
+}
+
+}  // namespace homing::server

@@ -1,0 +1,63 @@
+// One robot on its way home: observations to matches and a position, on the journeys it asked for.
+// Source: own design.
+#ifndef SERVER_SESSION_LOCALIZATION_SESSION_H_
+#define SERVER_SESSION_LOCALIZATION_SESSION_H_
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "absl/status/statusor.h"
+#include "homing/localization/localizer.h"
+#include "server/catalog/journey_catalog.h"
+#include "server/catalog/journey_selection.h"
+
+namespace homing::server {
+
+struct HomingQuery {
+  // Name or pattern; of a pattern, those that the filter lets through.
+  std::string journey;
+  JourneyFilter filter;
+  Travel travel = Travel::kReturn;
+  std::array<std::optional<Camera>, 2> cameras;
+  MatchOptions match;
+  PositionOptions position;
+};
+
+// Not thread-safe. Journeys are chosen once, at the first observation, when image sizes are known;
+// their maps may grow all the while. Nothing is stored.
+class LocalizationSession {
+ public:
+  // `catalog` must outlive the session. INVALID_ARGUMENT, NOT_FOUND, FAILED_PRECONDITION (the named
+  // journey's camera).
+  static absl::StatusOr<std::unique_ptr<LocalizationSession>> Open(JourneyCatalog* catalog,
+                                                                   const HomingQuery& query,
+                                                                   const DecodeLimits& limits);
+
+  // The first may have any number; each one after must have the next: OUT_OF_RANGE. NOT_FOUND: the
+  // journey, named, was deleted. FAILED_PRECONDITION: other camera or settings. INVALID_ARGUMENT.
+  absl::StatusOr<Localization> Localize(const Observation& observation);
+
+  // Of the journey that a Localization numbers.
+  const std::string& journey_name(int index) const {
+    return journeys_[static_cast<std::size_t>(index)]->name();
+  }
+
+ private:
+  LocalizationSession(const HomingQuery& query, JourneyName pattern, const DecodeLimits& limits)
+      : query_(query), pattern_(std::move(pattern)), limits_(limits) {}
+  absl::Status CheckSequence(std::int64_t sequence);
+  absl::Status Start(const Observation& observation);
+
+  const HomingQuery query_;
+  const JourneyName pattern_;
+  const DecodeLimits limits_;
+  LiveJourneys journeys_;
+  std::optional<Localizer> localizer_;
+  std::optional<std::int64_t> due_;
+};
+
+}  // namespace homing::server
+
+#endif  // SERVER_SESSION_LOCALIZATION_SESSION_H_

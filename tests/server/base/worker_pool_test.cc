@@ -1,0 +1,90 @@
+#include "server/base/worker_pool.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <future>
+#include <memory>
+#include <thread>
+#include <vector>
+
+namespace homing::server {
+namespace {
+
+TEST(WorkerPoolTest, RunsEverythingBeforeItEnds) {
+  std::atomic<int> ran = 0;
+  {
+    WorkerPool pool(3);
+    for (int i = 0; i < 200; ++i) {
+      pool.Run([&ran] { ++ran; });
+    }
+  }
+  EXPECT_EQ(ran, 200);
+}
+
+TEST(WorkerPoolTest, RefusesAboveItsBound) {
+  std::promise<void> release;
+  std::shared_future<void> released = release.get_future().share();
+  std::promise<void> started;
+  WorkerPool pool(1, 2);
+  ASSERT_TRUE(pool.TryRun([&] {
+    started.set_value();
+    released.wait();
+  }));
+  started.get_future().wait();
+  EXPECT_TRUE(pool.TryRun([] {}));
+  EXPECT_TRUE(pool.TryRun([] {}));
+  EXPECT_FALSE(pool.TryRun([] {}));
+  release.set_value();
+}
+
+TEST(StrandTest, RunsOnTheCallersThreadWhenNothingElseRunsOrWaits) {
+  WorkerPool pool(1);
+  const auto strand = std::make_shared<Strand>(&pool);
+  std::thread::id here;
+  strand->RunOrPost([&] { here = std::this_thread::get_id(); });
+  EXPECT_EQ(here, std::this_thread::get_id());
+}
+
+TEST(StrandTest, WhatComesWhileTheCallerRunsATaskWaitsForItsEnd) {
+  std::vector<int> order;
+  {
+    WorkerPool pool(2);
+    const auto strand = std::make_shared<Strand>(&pool);
+    strand->RunOrPost([&] {
+      strand->Post([&] { order.push_back(1); });
+      strand->RunOrPost([&] { order.push_back(2); });
+      order.push_back(0);
+    });
+  }
+  EXPECT_EQ(order, (std::vector<int>{0, 1, 2}));
+}
+
+TEST(StrandTest, RunsInOrderAndOneAtATimeOnManyThreads) {
+  constexpr int kStrands = 8;
+  constexpr int kTasks = 300;
+  std::vector<std::vector<int>> seen(kStrands);
+  {
+    WorkerPool pool(4);
+    for (int s = 0; s < kStrands; ++s) {
+      const auto strand = std::make_shared<Strand>(&pool);
+      for (int i = 0; i < kTasks; ++i) {
+        const auto task = [&order = seen[static_cast<std::size_t>(s)], i] { order.push_back(i); };
+        if (i % 3 == 0) {
+          strand->RunOrPost(task);
+        } else {
+          strand->Post(task);
+        }
+      }
+    }
+  }
+  for (const std::vector<int>& order : seen) {
+    ASSERT_EQ(order.size(), std::size_t{kTasks});
+    for (int i = 0; i < kTasks; ++i) {
+      EXPECT_EQ(order[static_cast<std::size_t>(i)], i);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace homing::server
