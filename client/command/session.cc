@@ -28,7 +28,7 @@ absl::StatusOr<Connection> Session::Connect() const {
 }
 
 void Session::Log(const std::string& text) const {
-  if (!quiet) std::fputs(absl::StrCat("homing: ", text, "\n").c_str(), stderr);
+  if (!quiet) std::fputs(absl::StrCat(program, ": ", text, "\n").c_str(), stderr);
 }
 
 absl::Status Session::Print(const std::string& line) const {
@@ -71,15 +71,17 @@ int ExitCode(const Session& session, const absl::Status& status) {
   if (status.ok()) return 0;
   const std::string code = absl::StatusCodeToString(status.code());
   std::fputs(
-      absl::StrCat("homing: error: ", std::string(status.message()), " (", code, ")\n").c_str(),
+      absl::StrCat(session.program, ": error: ", std::string(status.message()), " (", code, ")\n")
+          .c_str(),
       stderr);
   if (const std::string advice = AdviceOn(status); !advice.empty()) {
-    std::fputs(absl::StrCat("homing: ", advice, "\n").c_str(), stderr);
+    std::fputs(absl::StrCat(session.program, ": ", advice, "\n").c_str(), stderr);
   }
   if (!absl::IsUnavailable(status)) return 1;
   const std::string& address = session.connection.address;
   if (std::string(status.message()).find(address) == std::string::npos) {
-    std::fputs(absl::StrCat("homing: server ", address, " is unreachable\n").c_str(), stderr);
+    std::fputs(absl::StrCat(session.program, ": server ", address, " is unreachable\n").c_str(),
+               stderr);
   }
   return 3;
 }

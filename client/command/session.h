@@ -16,6 +16,8 @@ namespace homing::client {
 
 // Lives as long as the program.
 struct Session {
+  // What messages on stderr begin with.
+  std::string program = "homing";
   ConnectionOptions connection;
   // One object a line on stdout, nothing else there.
   bool json = false;

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "absl/strings/str_format.h"
-#include "client/load/projected_drive.h"
+#include "client/bench/projected_drive.h"
 #include "client/simulator/seeded_random.h"
 #include "proto/wire/enum_conversion.h"
 #include "tests/accuracy/sequences.h"

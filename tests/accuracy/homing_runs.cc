@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "absl/strings/str_cat.h"
-#include "client/load/projected_drive.h"
+#include "client/bench/projected_drive.h"
 #include "homing/journey/journey_recorder.h"
 #include "homing/landmark/profile_code.h"
 #include "homing/localization/localizer.h"

@@ -2,7 +2,7 @@
 # Measures what must be fast, side by side with what it is compared with; prints a line for each bound
 # (name value bound ok|short|unsure) and writes docs/performance.md. Exits 1 if any is short.
 # usage: tests/benchmark/run.sh [--quick]    smaller sizes and fewer robots, no report in docs/
-# HOMING_BUILD names a build with homing-server, homing and homing_benchmark (default: build/dev, built if
+# HOMING_BUILD names a build with homing-server, homing-bench and homing_benchmark (default: build/dev, built if
 # need be).
 set -eu
 cd "$(dirname "$0")/../.."
@@ -26,7 +26,7 @@ build=${HOMING_BUILD:-$root/build/dev}
 mkdir -p build/performance/images
 if [ -z "${HOMING_BUILD:-}" ]; then
   sh deploy/install.sh build client test benchmark
-  { cmake --preset dev -DHOMING_TESTS=ON && cmake --build --preset dev --target homing-server homing homing_benchmark -j "$(nproc)"; } \
+  { cmake --preset dev -DHOMING_TESTS=ON && cmake --build --preset dev --target homing-server homing-bench homing_benchmark -j "$(nproc)"; } \
     >build/performance/build.log 2>&1 </dev/null || { tail -n 50 build/performance/build.log >&2; exit 1; }
 fi
 
@@ -63,16 +63,16 @@ resident_kib() { sed -n 's/^VmRSS:[[:space:]]*\([0-9]*\) kB/\1/p' "/proc/$server
 field() { sed -n "s/.*\"$2\":\([0-9.e+-]*\).*/\1/p" "$1"; }
 # keep RUN COUNTER VALUE
 keep() { echo "$1 $2 $3" >>"$work/load"; }
-homing() { "$build/client/homing" --server "$address" --quiet --json "$@"; }
+bench() { "$build/client/bench/homing-bench" --server "$address" --quiet --json "$@"; }
 
-# load RUN TLS_FLAGS_OF_CLIENT bench's flags: one repetition, with the memory that the streams took.
+# load RUN TLS_FLAGS_OF_CLIENT FLAGS_OF_HOMING_BENCH: one repetition, with the memory that the streams took.
 load() {
   run=$1
   tls=$2
   shift 2
   before=$(resident_kib)
   # shellcheck disable=SC2086
-  homing $tls bench --robots "$robots" --rate 10 --seconds "$seconds" "$@" >"$work/bench" &
+  bench $tls --robots "$robots" --rate 10 --seconds "$seconds" "$@" >"$work/bench" &
   client=$!
   most=$before
   while kill -0 "$client" 2>/dev/null; do
@@ -104,7 +104,7 @@ while [ "$repeat" -lt "$repeats" ]; do
   load record_1000_tls "--tls-ca $work/cert.pem"
   stop_server
   start_server shared
-  homing bench --prepare --journeys 10 --steps 2000
+  bench --prepare --journeys 10 --steps 2000
   load localize_1000 "" --localize --journeys 10 --steps 2000
   stop_server
   if [ -n "$ramp" ]; then
@@ -118,7 +118,7 @@ done
 # Ten thousand journeys: one is recorded, its rows are copied.
 if [ -z "$quick" ]; then
   start_server many
-  homing bench --prepare --journeys 1 --steps 1000
+  bench --prepare --journeys 1 --steps 1000
   stop_server
   "$build/tests/benchmark/homing_benchmark" --copy-journeys "$work/many.db" 10000
   repeat=0

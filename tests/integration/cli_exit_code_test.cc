@@ -19,7 +19,7 @@ TEST_F(CliExitCodeTest, HelpAndVersionAreDone) {
   EXPECT_EQ(help.code, 0);
   EXPECT_FALSE(help.lines.empty());
   for (const char* command : {"record", "localize", "match", "journeys", "train", "simulate",
-                              "draw", "evaluate", "bench", "backup"}) {
+                              "draw", "evaluate", "backup"}) {
     EXPECT_EQ(Run({HOMING_PROGRAM, command, "--help"}).code, 0) << command;
   }
   EXPECT_THAT(Run({HOMING_PROGRAM, "--version"}).lines.at(0), HasSubstr("homing 0."));
@@ -53,6 +53,18 @@ TEST_F(CliExitCodeTest, WrongUsageIsTwo) {
     EXPECT_EQ(ran.code, 2) << ::testing::PrintToString(arguments) << ran.errors;
     EXPECT_FALSE(ran.errors.empty()) << ::testing::PrintToString(arguments);
   }
+}
+
+TEST_F(CliExitCodeTest, TheLoadGeneratorHasTheSameCodes) {
+  EXPECT_EQ(Run({HOMING_BENCH_PROGRAM, "--help"}).code, 0);
+  EXPECT_THAT(Run({HOMING_BENCH_PROGRAM, "--version"}).lines.at(0), HasSubstr("homing-bench 0."));
+  EXPECT_EQ(Run({HOMING_BENCH_PROGRAM, "--no-such-flag"}).code, 2);
+  EXPECT_EQ(Run({HOMING_BENCH_PROGRAM, "--send", "pigeons"}).code, 2);
+  StartServer();
+  const Ran ran = Run(
+      {HOMING_BENCH_PROGRAM, "--server", address_, "--json", "--robots", "2", "--seconds", "1"});
+  EXPECT_EQ(ran.code, 0) << ran.errors;
+  EXPECT_EQ(ran.Json().at(0).at("dropped"), 0);
 }
 
 TEST_F(CliExitCodeTest, AnUnreachableServerIsThreeAndNamed) {

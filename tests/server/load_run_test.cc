@@ -1,5 +1,5 @@
 // Loads against the server itself, over a real socket.
-#include "client/load/load_run.h"
+#include "client/bench/load_run.h"
 
 #include <unistd.h>
 
@@ -7,7 +7,7 @@
 #include <optional>
 #include <thread>
 
-#include "client/load/http2_endpoint.h"
+#include "client/bench/http2_endpoint.h"
 #include "server/access/certificate_folder.h"
 #include "server/access/token_book.h"
 #include "tests/server/server_fixture.h"

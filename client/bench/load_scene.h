@@ -1,6 +1,6 @@
 // What the robots of a load see. Source: own design.
-#ifndef CLIENT_LOAD_LOAD_SCENE_H_
-#define CLIENT_LOAD_LOAD_SCENE_H_
+#ifndef CLIENT_BENCH_LOAD_SCENE_H_
+#define CLIENT_BENCH_LOAD_SCENE_H_
 
 #include <vector>
 
@@ -27,4 +27,4 @@ class LoadScene {
 
 }  // namespace homing::client
 
-#endif  // CLIENT_LOAD_LOAD_SCENE_H_
+#endif  // CLIENT_BENCH_LOAD_SCENE_H_

@@ -1,7 +1,7 @@
 // Latencies counted in buckets of equal relative width. Source: own design, after Tene's HDR
 // histogram.
-#ifndef CLIENT_LOAD_LATENCY_HISTOGRAM_H_
-#define CLIENT_LOAD_LATENCY_HISTOGRAM_H_
+#ifndef CLIENT_BENCH_LATENCY_HISTOGRAM_H_
+#define CLIENT_BENCH_LATENCY_HISTOGRAM_H_
 
 #include <array>
 #include <chrono>
@@ -36,4 +36,4 @@ class LatencyHistogram {
 
 }  // namespace homing::client
 
-#endif  // CLIENT_LOAD_LATENCY_HISTOGRAM_H_
+#endif  // CLIENT_BENCH_LATENCY_HISTOGRAM_H_

@@ -1,6 +1,6 @@
 // Drives whose flow is projected from points, not rendered: long routes at little cost.
-#ifndef CLIENT_LOAD_PROJECTED_DRIVE_H_
-#define CLIENT_LOAD_PROJECTED_DRIVE_H_
+#ifndef CLIENT_BENCH_PROJECTED_DRIVE_H_
+#define CLIENT_BENCH_PROJECTED_DRIVE_H_
 
 #include <array>
 #include <cstdint>
@@ -78,4 +78,4 @@ class ProjectedDrive {
 
 }  // namespace homing::client
 
-#endif  // CLIENT_LOAD_PROJECTED_DRIVE_H_
+#endif  // CLIENT_BENCH_PROJECTED_DRIVE_H_

@@ -1,4 +1,4 @@
-#include "client/load/http2_call.h"
+#include "client/bench/http2_call.h"
 
 #include <arpa/inet.h>
 #include <fcntl.h>

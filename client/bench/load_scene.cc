@@ -1,9 +1,9 @@
-#include "client/load/load_scene.h"
+#include "client/bench/load_scene.h"
 
 #include <utility>
 
+#include "client/bench/projected_drive.h"
 #include "client/frame_source.h"
-#include "client/load/projected_drive.h"
 #include "client/simulator/seeded_random.h"
 #include "homing/base/status_macros.h"
 #include "proto/wire/observation_conversion.h"

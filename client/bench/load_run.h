@@ -1,15 +1,15 @@
 // A load on a server: many robots, each on a connection of its own, at a steady rate. Source: own
 // design.
-#ifndef CLIENT_LOAD_LOAD_RUN_H_
-#define CLIENT_LOAD_LOAD_RUN_H_
+#ifndef CLIENT_BENCH_LOAD_RUN_H_
+#define CLIENT_BENCH_LOAD_RUN_H_
 
 #include <functional>
 #include <stop_token>
 #include <string>
 
 #include "absl/status/statusor.h"
+#include "client/bench/load_robot.h"
 #include "client/connection.h"
-#include "client/load/load_robot.h"
 
 namespace homing::client {
 
@@ -54,4 +54,4 @@ absl::StatusOr<LoadResult> RunLoad(const ConnectionOptions& connection, const Lo
 
 }  // namespace homing::client
 
-#endif  // CLIENT_LOAD_LOAD_RUN_H_
+#endif  // CLIENT_BENCH_LOAD_RUN_H_

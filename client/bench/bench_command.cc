@@ -1,9 +1,11 @@
+#include "client/bench/bench_command.h"
+
+#include <array>
 #include <memory>
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
-#include "client/command/commands.h"
-#include "client/load/load_run.h"
+#include "client/bench/load_run.h"
 #include "homing/base/status_macros.h"
 
 namespace homing::client {
@@ -58,35 +60,28 @@ absl::Status Bench(const Session& session, const LoadOptions& options) {
 
 }  // namespace
 
-void AddBenchCommand(CLI::App& app, Session& session) {
-  CLI::App& command = *app.add_subcommand(
-      "bench", "Load a server with many robots; latencies from the time each message was due");
+void AddBenchFlags(CLI::App& app, Session& session) {
   auto flags = std::make_shared<LoadOptions>();
-  command.add_option("--robots", flags->robots, "Robots, each on a connection of its own")
+  app.add_option("--robots", flags->robots, "Robots, each on a connection of its own")
       ->capture_default_str();
-  command.add_option("--rate", flags->rate, "Observations a second of each robot")
+  app.add_option("--rate", flags->rate, "Observations a second of each robot")
       ->capture_default_str();
-  command.add_option("--seconds", flags->seconds, "How long each robot sends")
+  app.add_option("--seconds", flags->seconds, "How long each robot sends")->capture_default_str();
+  app.add_option("--ramp", flags->ramp_seconds,
+                 "Robots begin one after the other over so many seconds")
       ->capture_default_str();
-  command
-      .add_option("--ramp", flags->ramp_seconds,
-                  "Robots begin one after the other over so many seconds")
-      ->capture_default_str();
-  command
-      .add_option_function<std::string>(
-          "--send", [flags](const std::string& send) { flags->frames = send == "frames"; },
-          "frames or flow [flow]")
+  app.add_option_function<std::string>(
+         "--send", [flags](const std::string& send) { flags->frames = send == "frames"; },
+         "frames or flow [flow]")
       ->check(CLI::IsMember({"frames", "flow"}));
-  command.add_option("--vectors", flags->vectors, "Flow vectors an observation")
+  app.add_option("--vectors", flags->vectors, "Flow vectors an observation")->capture_default_str();
+  app.add_flag("--localize", flags->localize, "Localise instead of recording");
+  app.add_option("--journeys", flags->journeys, "Journeys that localising robots share")
       ->capture_default_str();
-  command.add_flag("--localize", flags->localize, "Localise instead of recording");
-  command.add_option("--journeys", flags->journeys, "Journeys that localising robots share")
-      ->capture_default_str();
-  command.add_option("--steps", flags->steps, "Steps of each of these")->capture_default_str();
-  command.add_option("--prefix", flags->prefix, "First part of the robots' ids")
-      ->capture_default_str();
-  command.add_flag("--prepare", flags->prepare_only, "Only record the journeys to localise on");
-  command.callback(
+  app.add_option("--steps", flags->steps, "Steps of each of these")->capture_default_str();
+  app.add_option("--prefix", flags->prefix, "First part of the robots' ids")->capture_default_str();
+  app.add_flag("--prepare", flags->prepare_only, "Only record the journeys to localise on");
+  app.callback(
       [flags, &session] { session.run = [flags, &session] { return Bench(session, *flags); }; });
 }
 

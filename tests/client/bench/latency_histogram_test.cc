@@ -1,4 +1,4 @@
-#include "client/load/latency_histogram.h"
+#include "client/bench/latency_histogram.h"
 
 #include <gtest/gtest.h>
 

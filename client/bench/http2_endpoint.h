@@ -1,6 +1,6 @@
 // A server that calls are made to without gRPC. Source: own design.
-#ifndef CLIENT_LOAD_HTTP2_ENDPOINT_H_
-#define CLIENT_LOAD_HTTP2_ENDPOINT_H_
+#ifndef CLIENT_BENCH_HTTP2_ENDPOINT_H_
+#define CLIENT_BENCH_HTTP2_ENDPOINT_H_
 
 #include <openssl/ssl.h>
 
@@ -36,4 +36,4 @@ class Http2Endpoint {
 
 }  // namespace homing::client
 
-#endif  // CLIENT_LOAD_HTTP2_ENDPOINT_H_
+#endif  // CLIENT_BENCH_HTTP2_ENDPOINT_H_

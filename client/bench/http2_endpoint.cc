@@ -1,4 +1,4 @@
-#include "client/load/http2_endpoint.h"
+#include "client/bench/http2_endpoint.h"
 
 #include <netdb.h>
 #include <netinet/tcp.h>

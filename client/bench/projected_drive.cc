@@ -1,4 +1,4 @@
-#include "client/load/projected_drive.h"
+#include "client/bench/projected_drive.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 // One robot of a load: a stream of its own connection, sent to at given times. Source: own design.
-#ifndef CLIENT_LOAD_LOAD_ROBOT_H_
-#define CLIENT_LOAD_LOAD_ROBOT_H_
+#ifndef CLIENT_BENCH_LOAD_ROBOT_H_
+#define CLIENT_BENCH_LOAD_ROBOT_H_
 
 #include <chrono>
 #include <cstdint>
@@ -13,8 +13,8 @@
 
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
-#include "client/load/http2_call.h"
-#include "client/load/latency_histogram.h"
+#include "client/bench/http2_call.h"
+#include "client/bench/latency_histogram.h"
 #include "homing/v1/homing_service.pb.h"
 #include "homing/v1/journey_service.pb.h"
 
@@ -140,4 +140,4 @@ class LoadRobot {
 
 }  // namespace homing::client
 
-#endif  // CLIENT_LOAD_LOAD_ROBOT_H_
+#endif  // CLIENT_BENCH_LOAD_ROBOT_H_

@@ -1,4 +1,4 @@
-#include "client/load/load_run.h"
+#include "client/bench/load_run.h"
 
 #include <sys/epoll.h>
 #include <unistd.h>
@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "absl/strings/str_cat.h"
+#include "client/bench/load_scene.h"
 #include "client/journey_client.h"
-#include "client/load/load_scene.h"
 #include "client/observation_stream.h"
 #include "client/recording_client.h"
 #include "homing/base/range_check.h"

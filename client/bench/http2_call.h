@@ -1,8 +1,8 @@
 // One two-way gRPC call on a connection of its own, without gRPC. A load takes a thousand of these:
 // what gRPC's client would take of the processor is left to the server. Source: RFC 9113 by
 // nghttp2; gRPC over HTTP/2.
-#ifndef CLIENT_LOAD_HTTP2_CALL_H_
-#define CLIENT_LOAD_HTTP2_CALL_H_
+#ifndef CLIENT_BENCH_HTTP2_CALL_H_
+#define CLIENT_BENCH_HTTP2_CALL_H_
 
 #include <nghttp2/nghttp2.h>
 
@@ -14,7 +14,7 @@
 
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
-#include "client/load/http2_endpoint.h"
+#include "client/bench/http2_endpoint.h"
 
 namespace homing::client {
 
@@ -80,4 +80,4 @@ class Http2Call {
 
 }  // namespace homing::client
 
-#endif  // CLIENT_LOAD_HTTP2_CALL_H_
+#endif  // CLIENT_BENCH_HTTP2_CALL_H_

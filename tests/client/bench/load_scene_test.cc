@@ -1,4 +1,4 @@
-#include "client/load/load_scene.h"
+#include "client/bench/load_scene.h"
 
 #include <gtest/gtest.h>
 
