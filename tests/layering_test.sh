@@ -7,25 +7,47 @@ set -u
 
 max_lines=300
 
-# Includes of a folder, its subfolders excluded: "FOLDER ALLOWED...", as the beginnings of project includes.
-rules='
-homing/image        homing/image/
-homing/flow         homing/flow/ homing/image/
-homing/landmark     homing/landmark/ homing/flow/ homing/image/
-homing/similarity   homing/similarity/ homing/landmark/ homing/flow/ homing/image/
-homing/journey      homing/journey/ homing/similarity/ homing/landmark/ homing/flow/ homing/image/
-homing/localization homing/localization/ homing/journey/ homing/similarity/ homing/landmark/ homing/flow/ homing/image/
-storage             storage/ homing/
-proto/wire          proto/wire/ homing/ homing/v1/
-server/session      server/session/ storage/ homing/
-server/access       server/access/ server/session/ storage/ homing/
-server/admission    server/admission/ server/session/ storage/ homing/
-server              server/ storage/ homing/ homing/v1/ proto/wire/ google/rpc/ grpc/health/
-client/simulator    client/simulator/ homing/flow/ homing/image/
-client              client/ homing/ homing/v1/ proto/wire/ google/rpc/ grpc/health/
-'
+# What one folder's files may include, its subfolders' apart: "FOLDER ALLOWED...". An allowed name that ends in a slash is
+# the beginning of an include, another one a folder without its subfolders. Each folder has a rule.
+below_landmark='homing/flow homing/image homing/base'
+below_journey="homing/similarity homing/landmark $below_landmark"
+below_matching="homing/journey $below_journey"
+messages='proto/wire homing/v1'
+gates='server/access server/admission server/metrics'
+kept="server/base storage homing/"
+rules="
+homing/base         homing/base
+homing/image        homing/image homing/base
+homing/flow         homing/flow homing/image homing/base
+homing/landmark     homing/landmark $below_landmark
+homing/similarity   homing/similarity homing/landmark $below_landmark
+homing/journey      homing/journey $below_journey
+homing/matching     homing/matching $below_matching
+homing/profile      homing/profile $below_matching
+homing/localization homing/localization homing/matching homing/profile $below_matching
+storage             storage homing/
+proto/wire          $messages homing/
+server/process      server/process
+server/base         server/base homing/base
+server/catalog      server/catalog $kept
+server/access       server/access server/catalog $kept
+server/admission    server/admission server/catalog $kept
+server/metrics      server/metrics server/access $kept
+server/session      server/session server/catalog $kept
+server/rpc          server/rpc server/session $gates server/catalog $kept $messages google/rpc
+server/service      server/service server/rpc server/session $gates server/catalog $kept $messages google/rpc
+server/config       server/config server/access server/admission $kept grpc/health/
+server              server/ storage homing/ $messages google/rpc grpc/health/
+client/simulator    client/simulator homing/flow homing/image homing/base
+client/picture      client/picture $below_journey
+client/opencv       client/opencv client homing/image homing/base
+client              client client/simulator client/command homing/ $messages google/rpc grpc/health/
+client/command      client/command client/picture client/simulator client server/process homing/ $messages
+client/bench        client/bench client/command client/simulator client server/process homing/ $messages
+"
 # Folders where generated code, gRPC and Protobuf may not be seen.
-no_network='homing storage server/session server/access server/admission client/simulator'
+no_network='homing storage client/simulator server/base server/catalog server/access server/admission server/session
+  server/process'
 
 fail() { echo "layering: $*"; failed=1; }
 
@@ -42,16 +64,20 @@ check_directions() {
     [ -d "${folder:-/nowhere}" ] || continue
     includes_of "$folder" | while read -r included; do
       ok=
-      case $included in
-        homing/v1/*) for begin in $allowed; do [ "$begin" = homing/v1/ ] && ok=1; done ;;
-        homing/*/*) for begin in $allowed; do case $included in "$begin"*) ok=1 ;; esac; done ;;
-        homing/*) ok=1 ;;
-        *) for begin in $allowed; do case $included in "$begin"*) ok=1 ;; esac; done ;;
-      esac
+      for name in $allowed; do
+        case $name in
+          homing/) case $included in homing/v1/*) ;; homing/*/*) ok=1 ;; esac ;;
+          */) case $included in "$name"*) ok=1 ;; esac ;;
+          *) [ "${included%/*}" != "$name" ] || ok=1 ;;
+        esac
+      done
       # Third-party headers in quotes: absl and the like.
       case $included in absl/* | fmt/* | spdlog/*) ok=1 ;; esac
       [ -n "$ok" ] || echo "$folder may not include $included"
     done
+  done
+  sources homing storage proto server client | sed 's|/[^/]*$||' | sort -u | while read -r folder; do
+    echo "$rules" | grep -q "^$folder " || echo "$folder has no rule"
   done
 }
 
@@ -123,7 +149,13 @@ self_test() {
   planted_bad=0
   plant homing/image/a.cc '#include "homing/flow/camera.h"'
   plant homing/flow/a.h '#include "homing/journey/journey_map.h"'
+  plant homing/base/a.h '#include "homing/image/frame.h"'
   plant homing/journey/a.cc '#include "homing/matching/matcher.h"'
+  plant homing/matching/a.h '#include "homing/profile/profile_distance.h"'
+  plant homing/matching/a.h '#include "homing/localization/localizer.h"'
+  plant homing/profile/a.h '#include "homing/matching/matcher.h"'
+  plant homing/profile/a.cc '#include "homing/localization/route_belief.h"'
+  plant homing/elsewhere/a.cc 'int x;'
   plant homing/journey/a.cc '#include "storage/journey_store.h"'
   plant homing/journey/a.cc '#include "homing/v1/types.pb.h"'
   plant homing/journey/a.cc '#include <grpcpp/grpcpp.h>'
@@ -140,6 +172,18 @@ self_test() {
   plant storage/a.cc '#include <opencv2/core.hpp>'
   plant server/a.cc '#include <sqlite3.h>'
   plant server/a.cc '#include "client/frame_source.h"'
+  plant server/base/a.h '#include "homing/journey/journey_map.h"'
+  plant server/base/a.cc '#include "server/rpc/status_conversion.h"'
+  plant server/process/a.h '#include "server/base/worker_pool.h"'
+  plant server/catalog/a.h '#include "server/session/recording_session.h"'
+  plant server/catalog/a.cc '#include "server/access/role.h"'
+  plant server/metrics/a.cc '#include "server/rpc/service_core.h"'
+  plant server/session/a.h '#include "server/metrics/metrics.h"'
+  plant server/rpc/a.h '#include "server/service/message_conversion.h"'
+  plant server/rpc/a.h '#include "server/config/server_options.h"'
+  plant server/service/a.h '#include "server/config/server_options.h"'
+  plant server/config/a.cc '#include "server/rpc/unary_call.h"'
+  plant server/config/a.cc '#include "server/homing_server.h"'
   plant server/session/a.cc '#include "homing/v1/types.pb.h"'
   plant server/session/a.h '#include "server/service/journey_archive.h"'
   plant server/access/a.cc '#include "server/rpc/unary_call.h"'
@@ -147,6 +191,10 @@ self_test() {
   plant server/admission/a.h '#include "server/access/role.h"'
   plant client/a.cc '#include "server/service/journey_archive.h"'
   plant client/a.cc '#include "storage/journey_store.h"'
+  plant client/a.cc '#include "client/bench/load_run.h"'
+  plant client/command/a.cc '#include "client/bench/load_run.h"'
+  plant client/command/a.cc '#include "server/base/worker_pool.h"'
+  plant client/picture/a.cc '#include "client/connection.h"'
   plant client/simulator/a.cc '#include "homing/journey/journey_map.h"'
   plant proto/wire/a.cc '#include "server/service/journey_archive.h"'
   plant homing/flow/string_util.cc 'int x;'
