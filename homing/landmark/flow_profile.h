@@ -1,74 +1,70 @@
-// What one camera saw at one step, cell by cell: where the flow vectors are, and how far away what
-// they lie on is. The paper's count and mean (eqs 11, 12), kept for each cell of a coarse grid
-// instead of once. Source: own design.
+// The view of one camera at one step: where the flow vectors are, how near their objects are, and
+// how far the camera moved. It keeps the paper's count and mean (eqs 11, 12) for each cell of a
+// coarse grid.
 #ifndef HOMING_LANDMARK_FLOW_PROFILE_H_
 #define HOMING_LANDMARK_FLOW_PROFILE_H_
 
 #include <array>
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "homing/flow/flow_vector.h"
+#include "homing/landmark/odometer_reading.h"
 
 namespace homing {
 
-// Immutable value of 96 bytes; of one byte a cell, rows from the top, each from the left:
-// - low four bits, the share code: 30 sqrt(vectors in the cell / n), rounded, at most 15; n is
-//   the geometric mean of the vectors in the image and 180: half a share, which poor light leaves
-//   alone, half a number, which a landmark that is gone leaves alone;
-// - high four bits, the parallax code: 0 where there is no vector; else 8 + 4 log2(median flow of
-//   the cell / median flow of the image), rounded, 1 to 15. The speed cancels; what is left is
-//   inverse depth, which light cannot change.
+// Immutable value. One byte a cell, rows from the top, each row from the left:
+// - low four bits, the count code: 30 sqrt(vectors in the cell / n), rounded, at most 15. n is the
+//   geometric mean of the vectors in the image and 180. So the code depends half on the fraction
+//   of the vectors, which poor light does not change, and half on their number, which a removed
+//   landmark does not change.
+// - high four bits, the parallax code: 0 where there are no vectors; else 8 + 4 times the mean
+//   log2(flow / mean flow of the image), rounded, 1 to 15. The speed cancels. What remains is
+//   inverse depth, which does not depend on light. Two neighbouring columns share one code.
+// Each vector counts in the four cells around its midpoint, by bilinear weights: a vector near a
+// border changes the profile little when it crosses the border.
 struct FlowProfile {
-  static constexpr int kColumns = 12;
-  static constexpr int kRows = 8;
+  static constexpr int kColumns = 16;
+  static constexpr int kRows = 10;
   static constexpr int kCells = kColumns * kRows;
   static constexpr int kMaxCode = 15;
-  static constexpr double kSharePerRoot = 30;
+  static constexpr double kCountPerRoot = 30;
   static constexpr double kUsualCount = 180;
-  static constexpr int kMedianParallax = 8;
+  static constexpr int kMeanParallax = 8;
   static constexpr int kParallaxPerOctave = 4;
 
   std::array<std::uint8_t, kCells> cells{};
+  OdometerReading odometer;
 
-  int share(int cell) const { return cells[static_cast<std::size_t>(cell)] & kMaxCode; }
-  int parallax(int cell) const { return cells[static_cast<std::size_t>(cell)] >> 4; }
+  int count_code(int cell) const { return cells[static_cast<std::size_t>(cell)] & kMaxCode; }
+  int parallax_code(int cell) const { return cells[static_cast<std::size_t>(cell)] >> 4; }
   friend bool operator==(const FlowProfile&, const FlowProfile&) = default;
 };
 
-// Makes profiles of one rectified field. Immutable.
+// Makes profiles of one rectified field. Immutable; thread-safe.
 class ProfileMaker {
  public:
-  // Non-finite vectors are left out.
+  // Leaves out vectors that are not finite.
   explicit ProfileMaker(const FlowField& field);
 
-  // Of the vectors, by their midpoints; those outside the image are left out. All cells 0 if none
-  // is left. `magnification` > 0: as the same camera would see it from so much nearer that what has
-  // the median flow looks so much larger (about the middle of the image); what is nearer than that
-  // changes more, what is further away less. One that fills only a part of the image has that part
-  // of the vectors.
+  // The profile of the vectors whose midpoints lie in the image; all zero if there are none.
+  // `magnification` > 0: the view of the same camera from so much nearer that objects with the mean
+  // flow look larger by this factor (about the middle of the image). Nearer objects change more,
+  // farther ones less. A magnification below 1 fills only a part of the image with that part of
+  // the vectors. The odometer reading is the same at any magnification.
   FlowProfile Make(double magnification = 1) const;
-  // Vectors.
-  std::size_t size() const { return midpoints_.lengths.size(); }
+  // Number of vectors.
+  std::size_t size() const { return x_.size(); }
+  const OdometerReading& odometer() const { return odometer_; }
 
  private:
-  // Midpoints from the middle of the image, in images; lengths in pixels.
-  struct Midpoints {
-    explicit Midpoints(std::size_t size = 0) : x(size), y(size), lengths(size) {}
-    std::vector<double> x;
-    std::vector<double> y;
-    std::vector<double> lengths;
-  };
-
-  static void FillMidpoints(const FlowField& field, double* __restrict x, double* __restrict y,
-                            double* __restrict lengths);
-  // Where each midpoint lies in the magnified image, and how long its vector is there.
-  static void Magnify(const Midpoints& midpoints, double magnification, double per_median,
-                      std::int32_t* __restrict cells, double* __restrict lengths);
-
-  // The shortest vector first.
-  Midpoints midpoints_;
+  // Midpoints from the middle of the image, in image sizes; log2 of the flow, pixels.
+  std::vector<float> x_;
+  std::vector<float> y_;
+  std::vector<float> log_flow_;
+  // Mean of log_flow_.
+  float mean_log_flow_ = 0;
+  OdometerReading odometer_;
 };
 
 inline FlowProfile MakeFlowProfile(const FlowField& field) { return ProfileMaker(field).Make(); }

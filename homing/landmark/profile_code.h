@@ -1,4 +1,4 @@
-// Flow profiles as bytes, for disk and wire. Source: own design.
+// Flow profiles as bytes, for disk and wire.
 #ifndef HOMING_LANDMARK_PROFILE_CODE_H_
 #define HOMING_LANDMARK_PROFILE_CODE_H_
 
@@ -10,11 +10,16 @@
 
 namespace homing {
 
-// Twelve bytes with a bit a cell (cell 0 lowest in the first), set where the cell is not 0; then
-// those cells in order. At most 108 bytes; none for a profile that is all 0.
+// Bytes of a profile that is not all 0.
+inline constexpr std::size_t kProfileBytes = 126;
+
+// The odometer reading (median_x and expansion, low byte first, length code, spread code), then a
+// nibble of count code a cell, then a nibble of parallax code for two cells; the first of two in
+// the low nibble. No bytes for a profile that is all 0.
 std::string EncodeProfile(const FlowProfile& profile);
 
-// INVALID_ARGUMENT: what EncodeProfile does not write.
+// Also reads the format of the first releases, 12 x 8 cells without odometer: resampled by area.
+// INVALID_ARGUMENT: anything else.
 absl::StatusOr<FlowProfile> DecodeProfile(std::string_view bytes);
 
 }  // namespace homing

@@ -19,6 +19,8 @@ constexpr std::int64_t kMostComparisons = 2'000'000;
 constexpr std::int64_t kTwinSteps = 5;
 constexpr double kLeastConfusion = 0.1;
 constexpr std::size_t kMostTwins = 20;
+// Of one observation: neighbouring ones show nearly the same.
+constexpr double kWeight = 0.3;
 
 // A robot that starts at one place: how probable the others are beside it, the more it sees.
 class Drive {
@@ -83,7 +85,7 @@ class Drive {
   }
 
   double Ratio(const DistanceScale& scale, std::int64_t step) const {
-    return double{ProfileRatio::Further(kWholeWeight)(
+    return double{ProfileRatio::OfWeight(kWeight)(
         scale.Deviations(distances_[static_cast<std::size_t>(step)]))};
   }
 

@@ -6,11 +6,11 @@ namespace homing {
 
 HOMING_VECTOR_CLONES
 void MixLanes(const LaneNeighbours& lanes, const LaneMix& mix, std::span<float> out) {
-  const auto [same, slower, faster, back] = lanes;
+  const auto [same, slower, faster, back, all] = lanes;
   float* const to = out.data();
   for (std::size_t s = 0; s < out.size(); ++s) {
-    to[s] =
-        mix.stay * same[s] + mix.from_beside * (slower[s] + faster[s]) + mix.from_back * back[s];
+    to[s] = mix.stay * same[s] + mix.from_beside * (slower[s] + faster[s]) +
+            mix.from_back * back[s] + mix.from_all * all[s];
   }
 }
 
@@ -26,14 +26,15 @@ void MoveLane(std::span<const float> in, const std::array<float, 4>& taps, float
 }
 
 HOMING_VECTOR_CLONES
-void WeighLane(std::span<const float> factors, float scale, float least, std::span<float> lane,
+void WeighLane(const LaneFactors& by, const float* table, std::span<float> lane,
                std::span<float> sum) {
-  const float* const by = factors.data();
+  const float* const factor = by.factors.data();
+  const std::int16_t* const index = by.indices.data();
   float* const value = lane.data();
   float* const total = sum.data();
   for (std::size_t s = 0; s < lane.size(); ++s) {
-    const float weighed = value[s] * by[s] * scale;
-    value[s] = weighed < least ? 0 : weighed;
+    const float weighed = value[s] * factor[s] * table[index[s]] * by.scale;
+    value[s] = weighed < by.least ? 0 : weighed;
     total[s] += value[s];
   }
 }

@@ -1,9 +1,10 @@
-// The loops over steps of RouteBelief. Source: own design.
+// The loops over steps of RouteBelief.
 #ifndef HOMING_LOCALIZATION_LANE_LOOPS_H_
 #define HOMING_LOCALIZATION_LANE_LOOPS_H_
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 
 namespace homing {
@@ -14,19 +15,22 @@ struct Displacement {
   std::array<float, 4> probabilities{};
 };
 
-// What a lane keeps of itself and takes from others, a step.
+// What a motion state keeps of itself and takes from others, an observation.
 struct LaneMix {
   float stay = 1;
   float from_beside = 0;
   float from_back = 0;
+  float from_all = 0;
 };
 
-// out = stay same + from_beside (slower + faster) + from_back back. REQUIRES: all as long as out.
+// out = stay same + from_beside (slower + faster) + from_back back + from_all all. REQUIRES: all as
+// long as out.
 struct LaneNeighbours {
   const float* same = nullptr;
   const float* slower = nullptr;
   const float* faster = nullptr;
   const float* back = nullptr;
+  const float* all = nullptr;
 };
 void MixLanes(const LaneNeighbours& lanes, const LaneMix& mix, std::span<float> out);
 
@@ -34,9 +38,15 @@ void MixLanes(const LaneNeighbours& lanes, const LaneMix& mix, std::span<float> 
 void MoveLane(std::span<const float> in, const std::array<float, 4>& taps, float added,
               std::span<float> out);
 
-// Multiplies a lane by the factors and by `scale`, and adds it to `sum`. Values below `least`
-// become 0. REQUIRES: all equally long.
-void WeighLane(std::span<const float> factors, float scale, float least, std::span<float> lane,
+// Multiplies a lane by the factors, by `scale` and by table[index], and adds it to `sum`. Values
+// below `least` become 0. REQUIRES: all equally long.
+struct LaneFactors {
+  std::span<const float> factors;
+  std::span<const std::int16_t> indices;
+  float scale = 1;
+  float least = 0;
+};
+void WeighLane(const LaneFactors& by, const float* table, std::span<float> lane,
                std::span<float> sum);
 
 // sum += lane. REQUIRES: both equally long.

@@ -11,24 +11,21 @@ namespace {
 constexpr double kDirectionMargin = 0.6;
 // Less on the route is nothing.
 constexpr double kNoMass = 1e-30;
-// Fitted: see docs/algorithm.md.
-constexpr MembershipRates kByProfiles = {
-    .first_weight = 2, .weight = 0.2, .least_log_odds = -5.5, .most_log_odds = 0.02};
-// What not knowing where on the route, within so many steps, speaks against being on it, logarithm,
-// for one side: places of a foreign route are like some here and some there.
-constexpr double kDoubt = 0.60;
-constexpr int kLeastDoubtSteps = 10;
-constexpr MembershipRates kByLandmarks = {
-    .first_weight = 1, .weight = 1, .least_log_odds = -30, .most_log_odds = 7.6};
-// An observation whose likelihood ratio, for one side, has less than this logarithm does not fit:
-// the robot may be anywhere.
-constexpr double kLeastFit = 0.25;
-// Observations in a row that must fit before far steps are no longer held one by one.
-constexpr int kCalm = 6;
-// Steps of less mass are far, then.
+// Evidence of an observation: steps moved over correlation length, times this.
+constexpr double kEvidencePerLength = 1.5;
+// Log odds an observation of full weight, for each unit of nearness, which is bounded.
+constexpr double kMembershipGain = 0.5;
+constexpr double kMostNearness = 2;
+// Steps around the believed one that count for it, correlation lengths.
+constexpr double kNearSteps = 1;
+// The active window holds steps of at least this mass. It is used while the robot is on the route
+// and at one place with at least these probabilities.
 constexpr double kFarMass = 1e-9;
-// The filter is cautious: of the intervals that it holds p for, 1 - (1 - p)^kCaution were right.
-constexpr double kCaution = 2.3;
+constexpr double kKnownOnRoute = 0.95;
+constexpr double kKnownPlace = 0.99;
+// The paper's P_T alone: log odds by observation, bounded by RouteMembership.
+constexpr double kLandmarkWeight = 1;
+constexpr std::int16_t kNoRatio = SpeedEvidence::kNoRatio;
 
 // Steps count from home.
 Direction DirectionOf(const std::array<double, 2>& mass) {
@@ -64,6 +61,20 @@ void PositionFilter::Grow(std::span<const JourneyRef> journeys) {
     step_count_ += journey.map->step_count();
   }
   beliefs_.resize(journeys.size());
+  if (!options_.paper_only) {
+    profile_likelihood_.Grow(journeys);
+  }
+  speed_steps_.resize(journeys.size(), -1);
+  for (std::size_t i = 0; i < journeys.size(); ++i) {
+    const RouteScale route = options_.paper_only ? RouteScale{} : profile_likelihood_.routes()[i];
+    if (speed_steps_[i] == route.step_count && i < speeds_.size()) continue;
+    if (i == speeds_.size()) {
+      speeds_.emplace_back(route.odometer_noise);
+    } else {
+      speeds_[i] = SpeedEvidence(route.odometer_noise);
+    }
+    speed_steps_[i] = route.step_count;
+  }
   if (before == step_count_) {
     return;
   }
@@ -79,10 +90,20 @@ void PositionFilter::Grow(std::span<const JourneyRef> journeys) {
 
 void PositionFilter::Predict(Motion motion) {
   const double restart = options_.restart_probability / static_cast<double>(step_count_);
-  for (RouteBelief& belief : beliefs_) {
-    motion == Motion::kMoving ? belief.Move(restart) : belief.Turn(restart);
+  double lost = 0;
+  for (std::size_t i = 0; i < beliefs_.size(); ++i) {
+    RouteBelief& belief = beliefs_[i];
+    if (motion == Motion::kMoving && started_) {
+      const double before = belief.Mass();
+      lost += before * belief.Move(speeds_[i].change(), restart);
+    } else if (motion == Motion::kTurning) {
+      belief.Turn(restart);
+    }
   }
   masses_ = Masses();
+  if (lost > 0) {
+    membership_.Leave(std::min(lost, 1.0));
+  }
 }
 
 std::vector<StepMass> PositionFilter::Masses() const {
@@ -94,49 +115,103 @@ std::vector<StepMass> PositionFilter::Masses() const {
   return masses;
 }
 
-// What ran off the ends was no way that the robot went: it does not count as predicted.
-double PositionFilter::Weigh(const std::vector<StepMass>& predicted,
-                             const std::function<std::span<const float>(std::size_t)>& factors) {
-  double before = 0;
+std::vector<std::int16_t> PositionFilter::RatiosOf(std::size_t journey, const JourneyMap& map,
+                                                   const SeenProfiles& profiles) const {
+  const StepMass& window = masses_[journey];
+  std::vector<std::int32_t> sums(window.mass.size());
+  std::vector<std::int32_t> counts(window.mass.size());
+  for (std::size_t side = 0; side < profiles.size(); ++side) {
+    const auto stored = map.profiles(Side{static_cast<int>(side)});
+    if (!profiles[side] || stored.empty()) continue;
+    const CameraOdometer& odometer = profile_likelihood_.routes()[journey].sides[side]->odometer;
+    const std::int16_t now = odometer.Read(profiles[side]->odometer());
+    if (now == CameraOdometer::kNone) continue;
+    for (std::size_t i = 0; i < sums.size(); ++i) {
+      const auto step = static_cast<std::size_t>(window.first) + i;
+      const std::int16_t then = odometer.Read(stored[step].odometer);
+      if (then == CameraOdometer::kNone) continue;
+      sums[i] += now - then;
+      counts[i] += 1;
+    }
+  }
+  std::vector<std::int16_t> ratios(sums.size(), kNoRatio);
+  for (std::size_t i = 0; i < sums.size(); ++i) {
+    if (counts[i] > 0) ratios[i] = SpeedEvidence::IndexOf(sums[i] / counts[i]);
+  }
+  return ratios;
+}
+
+void PositionFilter::Weigh(std::span<const JourneyRef> journeys, const SeenProfiles& profiles,
+                           const std::function<std::span<const float>(std::size_t)>& factors) {
   double after = 0;
   for (std::size_t i = 0; i < beliefs_.size(); ++i) {
-    const double beyond = beliefs_[i].MassBeyond();
-    before += predicted[i].Sum() + beyond;
-    masses_[i] = beliefs_[i].Weigh(factors(i));
-    after += masses_[i].Sum() + beyond;
+    const std::vector<std::int16_t> ratios =
+        options_.paper_only ? std::vector<std::int16_t>(masses_[i].mass.size(), kNoRatio)
+                            : RatiosOf(i, *journeys[i].map, profiles);
+    masses_[i] = beliefs_[i].Weigh(factors(i), ratios, speeds_[i]);
+    after += masses_[i].Sum() + beliefs_[i].MassBeyond();
   }
   Normalise(after);
-  return std::log(std::max(after, kNoMass) / std::max(before, kNoMass));
+  speed_ = {};
+  for (const RouteBelief& belief : beliefs_) {
+    const RouteBelief::Speed speed = belief.MeanSpeed();
+    const double mass = belief.Masses().Sum();
+    speed_.absolute += mass * speed.absolute;
+    speed_.outward += mass * speed.outward;
+  }
+}
+
+double PositionFilter::WeightOfObservation() const {
+  if (!started_) {
+    return 1;
+  }
+  double length = 1;
+  double most = -1;
+  for (std::size_t i = 0; i < beliefs_.size(); ++i) {
+    const double mass = masses_[i].Sum();
+    if (mass > most) {
+      most = mass;
+      length = profile_likelihood_.routes()[i].correlation_steps;
+    }
+  }
+  return std::clamp(kEvidencePerLength * speed_.absolute / length, 0.01, 1.0);
+}
+
+void PositionFilter::AddMembership(double weight) {
+  const auto length_of = [this](std::size_t i) {
+    return profile_likelihood_.routes()[i].correlation_steps;
+  };
+  const auto half = std::max<std::int64_t>(1, std::lround(kNearSteps * length_of(0)));
+  const auto [journey, window] = FindBest(half);
+  const double nearness = profile_likelihood_.Nearness(journey, window.first, window.last);
+  membership_.Add(kMembershipGain * weight * std::clamp(nearness, -kMostNearness, kMostNearness));
 }
 
 void PositionFilter::CorrectByProfiles(std::span<const JourneyRef> journeys,
                                        const SeenProfiles& profiles) {
-  profile_likelihood_.Compute(journeys, profiles, masses_);
-  const bool fits = profile_likelihood_.LogFit() >= kLeastFit;
-  calm_ = fits ? calm_ + 1 : 0;
-  const bool focused = std::ranges::any_of(beliefs_, &RouteBelief::IsFocused);
-  if (!fits && focused) {
-    Unfocus();
-    profile_likelihood_.Compute(journeys, profiles, masses_);
-  }
-  const double evidence =
-      Weigh(masses_, [this](std::size_t i) { return profile_likelihood_.of(i); });
-  const double here = FindBest(std::max(options_.tolerance_steps, kLeastDoubtSteps)).window.mass;
-  const double doubt = started_ ? kDoubt * (1 - std::clamp(here, 0.0, 1.0)) : 0;
-  membership_.Add(evidence / profile_likelihood_.sides() - profile_likelihood_.OffRoute() - doubt,
-                  kByProfiles);
+  const double weight = WeightOfObservation();
+  profile_likelihood_.Compute(journeys, profiles, masses_, weight);
+  Weigh(journeys, profiles, [this](std::size_t i) { return profile_likelihood_.of(i); });
+  AddMembership(weight);
   profile_likelihood_.Learn();
-  FocusIfCalm();
+  has_offset_ = true;
+  FocusIfKnown();
 }
 
 void PositionFilter::CorrectByLandmarks(std::span<const JourneyRef> journeys,
                                         const SeenSides& seen) {
   Unfocus();
-  calm_ = 0;
   likelihood_.Compute(journeys, seen);
-  const double evidence =
-      Weigh(masses_, [this](std::size_t i) { return std::span<const float>(likelihood_.of(i)); });
-  membership_.Add(evidence - std::log(likelihood_.OffRoute()), kByLandmarks);
+  double fit = 0, before = 0;
+  for (std::size_t i = 0; i < masses_.size(); ++i) {
+    for (std::size_t s = 0; s < masses_[i].mass.size(); ++s) {
+      fit += double{masses_[i].mass[s]} * double{likelihood_.of(i)[s]};
+      before += double{masses_[i].mass[s]};
+    }
+  }
+  Weigh(journeys, {}, [this](std::size_t i) { return std::span<const float>(likelihood_.of(i)); });
+  membership_.Add(kLandmarkWeight * (std::log(std::max(fit, kNoMass) / std::max(before, kNoMass)) -
+                                     std::log(likelihood_.OffRoute())));
 }
 
 void PositionFilter::Correct(std::span<const JourneyRef> journeys, const SeenSides& seen,
@@ -148,8 +223,11 @@ void PositionFilter::Correct(std::span<const JourneyRef> journeys, const SeenSid
   }
 }
 
-void PositionFilter::FocusIfCalm() {
-  if (calm_ < kCalm) {
+void PositionFilter::FocusIfKnown() {
+  const bool known = membership_.OnRoute() >= kKnownOnRoute &&
+                     FindBest(options_.tolerance_steps).window.mass >= kKnownPlace;
+  if (!known) {
+    Unfocus();
     return;
   }
   for (std::size_t i = 0; i < beliefs_.size(); ++i) {
@@ -197,7 +275,7 @@ PositionFilter::Best PositionFilter::FindBest(std::int64_t half) const {
 
 Position PositionFilter::Answer() const {
   Position position;
-  position.unknown_probability = membership_.OffRoute();
+  position.unknown_probability = 1 - membership_.OnRoute();
   if (!started_) {
     return position;
   }
@@ -205,14 +283,15 @@ Position PositionFilter::Answer() const {
     position.outcome = Outcome::kUnknownPlace;
     return position;
   }
+  position.speed_ratio = speed_.outward;
+  if (has_offset_) position.path_offset = profile_likelihood_.MeanOffset();
   const auto [journey, best] = FindBest(options_.tolerance_steps);
   position.journey = static_cast<int>(journey);
   const RouteBelief& belief = beliefs_[journey];
   position.step = best.step;
   position.interval_first = best.first;
   position.interval_last = best.last;
-  const double elsewhere = std::pow(1 - std::clamp(best.mass, 0.0, 1.0), kCaution);
-  position.probability = (1 - position.unknown_probability) * (1 - elsewhere);
+  position.probability = (1 - position.unknown_probability) * std::clamp(best.mass, 0.0, 1.0);
   position.outcome =
       position.probability >= options_.match_probability ? Outcome::kMatch : Outcome::kAmbiguous;
   const auto last_step = static_cast<double>(std::max<std::int64_t>(1, belief.step_count() - 1));

@@ -1,5 +1,5 @@
 // Discrete Bayes filter over the steps of one or more journeys: where on the route, which way, and
-// whether on it at all. Source: own design, following the paper's future work (V).
+// whether on it at all.
 #ifndef HOMING_LOCALIZATION_POSITION_FILTER_H_
 #define HOMING_LOCALIZATION_POSITION_FILTER_H_
 
@@ -36,7 +36,7 @@ struct PositionOptions {
   // Off the route before anything was seen. [0, 1).
   double off_route_prior = 0.2;
   // Probability a step that the robot has been set down anywhere (uniform restart). [0, 1).
-  double restart_probability = 1e-9;
+  double restart_probability = 1e-4;
 };
 
 absl::Status Validate(const PositionOptions& options);
@@ -52,8 +52,13 @@ struct Position {
   std::int64_t interval_last = 0;
   // Of the interval, 0..1.
   double probability = 0;
-  // Off the route, 0..1.
+  // Off every route, 0..1. `probability` is at most 1 - this.
   double unknown_probability = 0;
+  // Steps an observation, negative towards home; absent before the robot has moved.
+  std::optional<double> speed_ratio;
+  // Posterior mean of the metres left of the outbound path over the distance of what is seen, left
+  // of the ROUTE; absent without an estimate.
+  std::optional<double> path_offset;
   double progress_home = 0;
   Direction direction = Direction::kUnknown;
 };
@@ -79,13 +84,20 @@ class PositionFilter {
   void CorrectByLandmarks(std::span<const JourneyRef> journeys, const SeenSides& seen);
   // By journey, of the steps in focus.
   std::vector<StepMass> Masses() const;
-  // Multiplies each journey's steps in focus by its factors. Returns how likely the observation was
-  // where the robot was believed to be, logarithm.
-  double Weigh(const std::vector<StepMass>& predicted,
-               const std::function<std::span<const float>(std::size_t)>& factors);
-  // Where the robot is well known, only steps about there are held one by one; where it is not,
-  // all.
-  void FocusIfCalm();
+  // Multiplies the steps of each journey's active window by its factors, and the speeds by what the
+  // odometer says.
+  void Weigh(std::span<const JourneyRef> journeys, const SeenProfiles& profiles,
+             const std::function<std::span<const float>(std::size_t)>& factors);
+  // By step of the active window: what the odometer says, an index into SpeedEvidence.
+  std::vector<std::int16_t> RatiosOf(std::size_t journey, const JourneyMap& map,
+                                     const SeenProfiles& profiles) const;
+  // What this observation may say that the ones before have not: the steps that the robot has moved
+  // over the correlation length of the map. (0, 1].
+  double WeightOfObservation() const;
+  // Evidence of being on the route, from the steps near the believed one.
+  void AddMembership(double weight);
+  // Where the robot is well known, only the steps around it are held one by one; else all.
+  void FocusIfKnown();
   void Unfocus();
   // Makes the mass of all steps 1, where it was `mass`.
   void Normalise(double mass);
@@ -108,8 +120,12 @@ class PositionFilter {
   std::int64_t step_count_ = 0;
   // A moving observation has been taken.
   bool started_ = false;
-  // Observations in a row that fitted where the robot was believed to be.
-  int calm_ = 0;
+  // By journey.
+  std::vector<SpeedEvidence> speeds_;
+  // Steps of the map when `speeds_` were made.
+  std::vector<std::int64_t> speed_steps_;
+  RouteBelief::Speed speed_;
+  bool has_offset_ = false;
 };
 
 }  // namespace homing

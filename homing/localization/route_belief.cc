@@ -10,22 +10,18 @@
 namespace homing {
 namespace {
 
-constexpr std::size_t kSpeedCount = RouteBelief::kSpeeds.size();
-// Probability a step that the speed changes to each neighbour. More often, and a robot that slows
-// down just before a removed landmark explains too well why it is not seen.
-constexpr float kSpeedChange = 0.001F;
-// Probability a step that the robot turns back.
-constexpr float kTurnBack = 0.0003F;
-// Probability a step of being one further, or one less far, than the speed says.
-constexpr double kDiffusion = 0.05;
-// Deviation of the logarithm of the speed relative to the outbound one, before anything was seen.
-constexpr double kSpeedDeviation = 0.5;
-// Probability a turn on the spot of moving by one either way.
+// Of the changes of speed, those to any speed; the others are to a neighbouring one.
+constexpr double kJumpFraction = 0.1;
+// Probability an observation that the robot turns back.
+constexpr float kTurnBack = 0.001F;
+// Probability an observation of being one step further, or one less far, than the speed says.
+constexpr double kDiffusion = 0.02;
+// Probability of moving by one either way in a turn on the spot.
 constexpr double kTurnMotion = 0.05;
-// Less is nothing: keeps denormal numbers out.
+// Keeps denormal numbers out.
 constexpr float kLeastMass = 1e-30F;
 // No motion goes further than this, steps.
-constexpr std::int64_t kFurthest = 4;
+constexpr std::int64_t kFurthest = 10;
 // Steps of a lane that cost no more memory than fewer would.
 constexpr std::size_t kRoom = 64;
 
@@ -46,22 +42,8 @@ constexpr Displacement kTurned{
     .probabilities = {static_cast<float>(kTurnMotion), static_cast<float>(1 - 2 * kTurnMotion),
                       static_cast<float>(kTurnMotion), 0}};
 
-// Share of a lane in the mass of a step: either direction alike, speeds log-normal about the
-// outbound one.
-double PriorOf(std::size_t lane) {
-  static const auto weights = [] {
-    std::array<double, kSpeedCount> all{};
-    for (std::size_t i = 0; i < kSpeedCount; ++i) {
-      all[i] = std::exp(-0.5 * std::pow(std::log(RouteBelief::kSpeeds[i]) / kSpeedDeviation, 2));
-    }
-    const double sum = std::accumulate(all.begin(), all.end(), 0.0);
-    for (double& weight : all) {
-      weight /= 2 * sum;
-    }
-    return all;
-  }();
-  return weights[lane % kSpeedCount];
-}
+// Fraction of a lane in the mass of a step: all directions and speeds alike.
+constexpr double kPrior = 1.0 / (2 * kSpeedCount);
 
 }  // namespace
 
@@ -86,41 +68,42 @@ void RouteBelief::Grow(std::int64_t step_count, double mass) {
   }
   for (std::size_t lane = 0; lane < kLanes; ++lane) {
     lanes_[lane].resize(static_cast<std::size_t>(step_count),
-                        static_cast<float>(mass * PriorOf(lane) / scale_));
+                        static_cast<float>(mass * kPrior / scale_));
   }
 }
 
 void RouteBelief::AddToEach(double mass) {
   background_ += mass / scale_;
   for (std::size_t lane = 0; lane < kLanes; ++lane) {
-    const auto share = static_cast<float>(mass * PriorOf(lane) / scale_);
+    const auto share = static_cast<float>(mass * kPrior / scale_);
     for (float& value : lanes_[lane]) {
       value += share;
     }
   }
 }
 
-float RouteBelief::Beyond(std::size_t lane, std::int64_t step) const {
-  return step < 0 || step >= step_count_ ? 0 : static_cast<float>(background_ * PriorOf(lane));
+float RouteBelief::Beyond(std::int64_t step) const {
+  return step < 0 || step >= step_count_ ? 0 : static_cast<float>(background_ * kPrior);
 }
 
 void RouteBelief::Mix(std::size_t lane, const Motion& motion, const Carried& carried,
-                      const Lane& slower, Lane& mixed) const {
+                      const Lane& slower, const Lane& all, Lane& mixed) const {
   const std::size_t speed = lane % kSpeedCount;
   const std::int64_t start = carried.begin - kFurthest;
   mixed.resize(static_cast<std::size_t>(carried.end - carried.begin + 2 * kFurthest));
   const std::int64_t held = first_ - start;
   for (std::int64_t i = 0; i < held; ++i) {
-    mixed[static_cast<std::size_t>(i)] = Beyond(lane, start + i);
+    mixed[static_cast<std::size_t>(i)] = Beyond(start + i);
   }
   const Lane& same = lanes_[lane];
   MixLanes({.same = same.data(),
             .slower = speed > 0 ? slower.data() : same.data(),
             .faster = lanes_[speed + 1 < kSpeedCount ? lane + 1 : lane].data(),
-            .back = lanes_[(lane + kSpeedCount) % kLanes].data()},
+            .back = lanes_[(lane + kSpeedCount) % kLanes].data(),
+            .all = all.data()},
            motion.mix, std::span(mixed).subspan(static_cast<std::size_t>(held), same.size()));
   for (std::int64_t i = held + std::ssize(same); i < std::ssize(mixed); ++i) {
-    mixed[static_cast<std::size_t>(i)] = Beyond(lane, start + i);
+    mixed[static_cast<std::size_t>(i)] = Beyond(start + i);
   }
 }
 
@@ -139,7 +122,7 @@ void RouteBelief::MoveMixed(std::size_t lane, const Motion& motion, double resta
   }
   moved.resize(mixed.size() - 2 * kFurthest);
   MoveLane(std::span(mixed).subspan(static_cast<std::size_t>(from)), taps,
-           static_cast<float>(restart * PriorOf(lane)), moved);
+           static_cast<float>(restart * kPrior), moved);
 }
 
 // Speed by speed, both directions at once: only the speed before is needed as it was. Less memory
@@ -153,10 +136,16 @@ void RouteBelief::Carry(const Motion& motion, double restart) {
                         .end = std::min(step_count_, first_ + focus_size() + kFurthest)};
   std::array<Lane, 2> slower;
   std::array<Lane, 2> mixed;
+  std::array<Lane, 2> all;
+  for (std::size_t lane = 0; lane < kLanes; ++lane) {
+    Lane& sum = all[lane / kSpeedCount];
+    sum.resize(lanes_[lane].size());
+    AddLane(lanes_[lane], sum);
+  }
   for (std::size_t speed = 0; speed < kSpeedCount; ++speed) {
     const std::array lanes = {speed, speed + kSpeedCount};
     for (std::size_t way = 0; way < lanes.size(); ++way) {
-      Mix(lanes[way], motion, carried, slower[way], mixed[way]);
+      Mix(lanes[way], motion, carried, slower[way], all[way], mixed[way]);
     }
     for (std::size_t way = 0; way < lanes.size(); ++way) {
       slower[way].swap(lanes_[lanes[way]]);
@@ -168,16 +157,20 @@ void RouteBelief::Carry(const Motion& motion, double restart) {
   scale_ = 1;
 }
 
-void RouteBelief::Move(double restart) {
-  static const Motion motion = [] {
-    Motion all{.mix = {.stay = 1 - 2 * kSpeedChange - kTurnBack,
-                       .from_beside = kSpeedChange,
-                       .from_back = kTurnBack},
-               .displacements = {}};
-    std::ranges::transform(kSpeeds, all.displacements.begin(), DisplacementOf);
-    return all;
-  }();
-  Carry(motion, restart);
+double RouteBelief::Move(double change, double restart) {
+  const double beside = 0.5 * change * (1 - kJumpFraction);
+  const double all = change * kJumpFraction / kSpeedCount;
+  Motion motion{.mix = {.stay = static_cast<float>(1 - change - kTurnBack),
+                        .from_beside = static_cast<float>(beside),
+                        .from_back = kTurnBack,
+                        .from_all = static_cast<float>(all)},
+                .displacements = {}};
+  std::ranges::transform(kSpeeds, motion.displacements.begin(), DisplacementOf);
+  const double before = Masses().Sum();
+  Carry(motion, 0);
+  const double after = Masses().Sum();
+  if (restart > 0) AddToEach(restart);
+  return before > 0 ? std::clamp(1 - after / before, 0.0, 1.0) : 0;
 }
 
 void RouteBelief::Turn(double restart) {
@@ -189,10 +182,12 @@ void RouteBelief::Turn(double restart) {
   Carry(motion, restart);
 }
 
-StepMass RouteBelief::Weigh(std::span<const float> factors) {
+StepMass RouteBelief::Weigh(std::span<const float> factors, std::span<const std::int16_t> ratios,
+                            const SpeedEvidence& speeds) {
   StepMass left{first_, std::vector<float>(factors.size())};
-  for (Lane& lane : lanes_) {
-    WeighLane(factors, static_cast<float>(scale_), kLeastMass, lane, left.mass);
+  const LaneFactors by{factors, ratios, static_cast<float>(scale_), kLeastMass};
+  for (std::size_t lane = 0; lane < kLanes; ++lane) {
+    WeighLane(by, speeds.of(lane % kSpeedCount), lanes_[lane], left.mass);
   }
   background_ *= scale_;
   scale_ = 1;
@@ -229,8 +224,7 @@ void RouteBelief::Unfocus() {
     return;
   }
   for (std::size_t lane = 0; lane < kLanes; ++lane) {
-    Lane all(static_cast<std::size_t>(step_count_),
-             static_cast<float>(background_ * PriorOf(lane)));
+    Lane all(static_cast<std::size_t>(step_count_), static_cast<float>(background_ * kPrior));
     std::ranges::copy(lanes_[lane], all.begin() + first_);
     lanes_[lane] = std::move(all);
   }
@@ -253,6 +247,23 @@ double RouteBelief::MassBeyond() const {
 }
 
 double RouteBelief::Mass() const { return Masses().Sum() + MassBeyond(); }
+
+RouteBelief::Speed RouteBelief::MeanSpeed() const {
+  Speed mean;
+  double mass = 0;
+  for (std::size_t lane = 0; lane < kLanes; ++lane) {
+    const double of_lane = std::accumulate(lanes_[lane].begin(), lanes_[lane].end(), 0.0);
+    const double speed = kSpeeds[lane % kSpeedCount];
+    mass += of_lane;
+    mean.absolute += of_lane * speed;
+    mean.outward += of_lane * (lane < kSpeedCount ? -speed : speed);
+  }
+  if (mass > 0) {
+    mean.absolute /= mass;
+    mean.outward /= mass;
+  }
+  return mean;
+}
 
 std::array<double, 2> RouteBelief::DirectionMass(std::int64_t first, std::int64_t last) const {
   std::array<double, 2> mass{};

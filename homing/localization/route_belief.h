@@ -1,6 +1,5 @@
 // Belief over the steps of one journey, the direction along it and the speed relative to the
-// outbound trip; and the motion model that carries it on. Source: own design (Bayesian statistics
-// are the paper's future work, V).
+// outbound trip; and the motion model (Bayesian statistics are the paper's future work, V).
 #ifndef HOMING_LOCALIZATION_ROUTE_BELIEF_H_
 #define HOMING_LOCALIZATION_ROUTE_BELIEF_H_
 
@@ -9,18 +8,15 @@
 #include <span>
 #include <vector>
 
+#include "homing/localization/speed_evidence.h"
 #include "homing/profile/step_mass.h"
 
 namespace homing {
 
-// Masses are not normalised. Once the robot's place is known, only the steps about it are held one
-// by one (the focus); all others have the same small mass. Not thread-safe.
+// Masses are not normalised. Once the robot's place is known, only the steps around it are held one
+// by one (the active window); all others have the same small mass. Not thread-safe.
 class RouteBelief {
  public:
-  // Steps of the journey a step of the way home: powers of the fourth root of 2.
-  static constexpr std::array<double, 11> kSpeeds = {0.35355, 0.5,     0.59460, 0.70711, 0.84090, 1,
-                                                     1.18921, 1.41421, 1.68179, 2,       2.82843};
-
   std::int64_t step_count() const { return step_count_; }
   // The focus: from first_step() on, focus_size() steps. All of them at first.
   std::int64_t first_step() const { return first_; }
@@ -33,13 +29,16 @@ class RouteBelief {
   // Adds `mass` to each step, spread in the same way.
   void AddToEach(double mass);
 
-  // One step of motion; each step then gains `restart`. What runs off an end of the journey is
-  // gone.
-  void Move(double restart = 0);
+  // One observation of motion; each step then gains `restart`. `change`: probability that the speed
+  // changes. Mass that passes an end of the journey leaves it: returns that fraction.
+  double Move(double change, double restart = 0);
   // A turn on the spot: hardly any motion.
   void Turn(double restart = 0);
-  // Times one factor a step of the focus. REQUIRES: focus_size() of them. Returns what is left.
-  StepMass Weigh(std::span<const float> factors);
+  // Multiplies each step of the active window by its factor, and each speed by what the odometer
+  // says. `ratios`: SpeedEvidence::IndexOf the reading now less the step's. REQUIRES: focus_size()
+  // factors and ratios. Returns the remaining mass.
+  StepMass Weigh(std::span<const float> factors, std::span<const std::int16_t> ratios,
+                 const SpeedEvidence& speeds);
   void Scale(double factor);
 
   // Holds only steps of at least `least` mass, and those between them, one by one.
@@ -52,12 +51,18 @@ class RouteBelief {
   StepMass Masses() const;
   // Of all steps beyond the focus.
   double MassBeyond() const;
+  // Mean speed of the active window, steps an observation, and with its sign away from home.
+  struct Speed {
+    double absolute = 0;
+    double outward = 0;
+  };
+  Speed MeanSpeed() const;
   // Mass from `first` to `last` that moves towards home (0), away from it (1).
   std::array<double, 2> DirectionMass(std::int64_t first, std::int64_t last) const;
 
  private:
   // Towards home, away from home.
-  static constexpr std::size_t kLanes = 2 * kSpeeds.size();
+  static constexpr std::size_t kLanes = 2 * kSpeedCount;
   using Lane = std::vector<float>;
   struct Motion;
 
@@ -66,13 +71,14 @@ class RouteBelief {
 
   void Carry(const Motion& motion, double restart);
   // Copies a lane, mixed with its neighbours, with what lies on either side of the steps of
-  // `carried`, into `mixed`. `slower`: the lane of the speed before, as it was.
+  // `carried`, into `mixed`. `slower`: the lane of the speed before, as it was; `all`: the sum of
+  // this direction's lanes, as they were.
   void Mix(std::size_t lane, const Motion& motion, const Carried& carried, const Lane& slower,
-           Lane& mixed) const;
+           const Lane& all, Lane& mixed) const;
   // Moves a mixed lane to where it is now.
   void MoveMixed(std::size_t lane, const Motion& motion, double restart, const Lane& mixed,
                  Lane& moved) const;
-  float Beyond(std::size_t lane, std::int64_t step) const;
+  float Beyond(std::int64_t step) const;
 
   std::int64_t step_count_ = 0;
   std::int64_t first_ = 0;

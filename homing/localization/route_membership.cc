@@ -4,16 +4,27 @@
 #include <cmath>
 
 namespace homing {
+namespace {
+
+// Off the route for long, the robot is believed to be back after some observations that fit. On it
+// for long, a stretch that has changed does not take it off.
+constexpr double kLeastLogOdds = -3;
+constexpr double kMostLogOdds = 8;
+
+}  // namespace
 
 RouteMembership::RouteMembership(double off_route_prior)
-    : log_odds_(std::log(off_route_prior / (1 - off_route_prior))) {}
+    : log_odds_(std::log((1 - off_route_prior) / std::max(off_route_prior, 1e-9))) {}
 
-void RouteMembership::Add(double evidence, const MembershipRates& rates) {
-  log_odds_ -= (started_ ? rates.weight : rates.first_weight) * evidence;
-  log_odds_ = std::clamp(log_odds_, rates.least_log_odds, rates.most_log_odds);
-  started_ = true;
+void RouteMembership::Add(double evidence) {
+  log_odds_ = std::clamp(log_odds_ + evidence, kLeastLogOdds, kMostLogOdds);
 }
 
-double RouteMembership::OffRoute() const { return 1 / (1 + std::exp(-log_odds_)); }
+void RouteMembership::Leave(double fraction) {
+  const double on_route = OnRoute() * (1 - fraction);
+  Add(std::log(std::max(on_route, 1e-9) / (1 - on_route)) - log_odds_);
+}
+
+double RouteMembership::OnRoute() const { return 1 / (1 + std::exp(-log_odds_)); }
 
 }  // namespace homing

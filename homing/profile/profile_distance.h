@@ -17,8 +17,8 @@ using CellMask = std::array<std::uint8_t, FlowProfile::kCells>;
 CellMask CoveredCells(double magnification);
 
 // One view of what is seen, and how far it is from each of the stored profiles: over the covered
-// cells, the sum of 4 |what has come of the share code| + 3 |what has gone of it| + where both have
-// vectors, |difference of the parallax codes|, at most 6. 0 to 6336.
+// cells, the sum of 4 |gain of the count code| + 3 |loss of it| + where both have
+// vectors, |difference of the parallax codes|, at most 6. 0 to 10560.
 struct ProfileView {
   const FlowProfile& seen;
   const CellMask& covered;

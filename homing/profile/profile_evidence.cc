@@ -10,21 +10,16 @@
 namespace homing {
 namespace {
 
-// Fitted: a distance of u deviations from the middle of the unmatched ones speaks for the step as
-// exp(kSlope (-u - kNeutral)), kMostEvidence at most, and comes from anywhere (hidden, removed,
-// new) with probability kOutlierShare.
+// A distance of u deviations speaks for the step as exp(kSlope (-u - kNeutral)), kMostEvidence at
+// most; with probability kOutlierFraction the place does not look as it did (hidden, removed, new).
+// docs/algorithm.md lists these constants and what each real set would choose.
 constexpr double kSlope = 2;
 constexpr double kNeutral = 1;
 constexpr double kMostEvidence = 5;
-constexpr double kOutlierShare = 0.25;
-// Exponent of what a further observation of kEnoughVectors or more says.
-constexpr double kTemper = 0.3;
-constexpr double kEnoughVectors = 50;
-// Deviation of unmatched distances, of their middle, and how many of them it is worth.
-constexpr double kDeviation = 0.17;
-constexpr double kDeviationWorth = 100;
-constexpr double kMiddle = 600;
-constexpr double kMiddleWorth = 2;
+constexpr double kOutlierFraction = 0.25;
+// A sample whose distances are all alike tells nothing apart.
+constexpr double kLeastDeviation = 0.02;
+constexpr int kWeights = 16;
 
 // Number, sum and sum of squares of some distances.
 struct Moments {
@@ -45,71 +40,65 @@ Moments MomentsAbove(std::span<const std::uint16_t> sample, std::uint32_t least)
   return moments;
 }
 
+HOMING_VECTOR_CLONES
+void MultiplyEach(const float* __restrict values, std::int32_t most, float per_unit, float first,
+                  std::span<const std::uint16_t> distances, const std::int16_t* __restrict bias,
+                  float* __restrict factors) {
+  const std::uint16_t* const from = distances.data();
+  for (std::size_t i = 0; i < distances.size(); ++i) {
+    const auto at = static_cast<std::int32_t>(
+        static_cast<float>(std::int32_t{from[i]} - std::int32_t{bias[i]}) * per_unit + first);
+    const std::int32_t least = at < 0 ? 0 : at;
+    factors[i] *= values[least < most ? least : most];
+  }
+}
+
 }  // namespace
 
-// The lower half holds the matched ones: the deviation is that of the upper half.
+// The lower half holds the true place: the deviation is that of the upper half.
 DistanceScale ScaleOf(std::span<const std::uint16_t> sample) {
-  double middle = kMiddle;
-  if (!sample.empty()) {
-    const double median = Median(sample);
-    const auto count = static_cast<double>(sample.size());
-    middle = (count * median + kMiddleWorth * kMiddle) / (count + kMiddleWorth);
+  if (sample.empty()) {
+    return {};
   }
-  // Of the sum of (distance / middle - 1)^2.
+  const double middle = std::max<double>(1, Median(sample));
   const Moments above = MomentsAbove(sample, static_cast<std::uint32_t>(middle));
   const auto count = static_cast<double>(above.count);
-  const double squares = static_cast<double>(above.squares) / (middle * middle) -
-                         2 * static_cast<double>(above.sum) / middle + count;
-  const double variance =
-      (kDeviationWorth * kDeviation * kDeviation + squares) / (kDeviationWorth + count);
-  const double deviation = middle * std::sqrt(variance);
+  const double squares = static_cast<double>(above.squares) -
+                         2 * middle * static_cast<double>(above.sum) + count * middle * middle;
+  const double deviation =
+      std::max(kLeastDeviation * middle, count > 0 ? std::sqrt(squares / count) : 0);
   return {static_cast<float>(middle), static_cast<float>(1 / deviation)};
 }
 
-ProfileRatio::ProfileRatio(double temper) {
+ProfileRatio::ProfileRatio(double weight) {
   for (std::size_t i = 0; i < values_.size(); ++i) {
     const double u = (static_cast<double>(i) + 0.5) / kPerDeviation - kMost;
     const double evidence = std::min(kSlope * (-u - kNeutral), kMostEvidence);
     values_[i] = static_cast<float>(
-        std::pow(kOutlierShare + (1 - kOutlierShare) * std::exp(evidence), temper));
+        std::pow(kOutlierFraction + (1 - kOutlierFraction) * std::exp(evidence), weight));
   }
 }
 
-HOMING_VECTOR_CLONES
-void ProfileRatio::MultiplyEach(const float* __restrict values,
-                                std::span<const std::uint16_t> distances, DistanceScale scale,
-                                float* __restrict factors) {
-  const std::uint16_t* const from = distances.data();
-  for (std::size_t i = 0; i < distances.size(); ++i) {
-    factors[i] *= values[IndexOf(scale.Deviations(from[i]))];
-  }
-}
-
-void ProfileRatio::Multiply(std::span<const std::uint16_t> distances, const DistanceScale& scale,
+void ProfileRatio::Multiply(std::span<const std::uint16_t> distances,
+                            std::span<const std::int16_t> bias, const DistanceScale& scale,
                             std::span<float> factors) const {
-  MultiplyEach(values_.data(), distances, scale, factors.data());
+  MultiplyEach(values_.data(), kCount - 1, scale.per_deviation * kPerDeviation,
+               (kMost - scale.middle * scale.per_deviation) * kPerDeviation, distances, bias.data(),
+               factors.data());
 }
 
-const ProfileRatio& ProfileRatio::First() {
-  static const ProfileRatio ratio(1);
-  return ratio;
-}
-
-const ProfileRatio& ProfileRatio::Further(int weight) {
+const ProfileRatio& ProfileRatio::OfWeight(double weight) {
   static const auto ratios = [] {
     std::vector<ProfileRatio> all;
-    for (int i = 0; i <= kWholeWeight; ++i) {
-      all.push_back(ProfileRatio(kTemper * i / kWholeWeight));
+    for (int i = 0; i < kWeights; ++i) {
+      all.push_back(ProfileRatio(std::pow(2, -0.5 * i)));
     }
     return all;
   }();
-  return ratios[static_cast<std::size_t>(weight)];
-}
-
-int EvidenceWeight(std::size_t vectors) {
-  const double share = std::min(1.0, static_cast<double>(vectors) / kEnoughVectors);
-  // Few vectors are also much the same ones in view after view: the square of their share.
-  return std::max(1, static_cast<int>(std::lround(kWholeWeight * share * share)));
+  const double halvings = weight > 0 ? -2 * std::log2(weight) : kWeights;
+  const auto index = static_cast<std::size_t>(
+      std::clamp(std::lround(halvings), 0L, static_cast<long>(kWeights - 1)));
+  return ratios[index];
 }
 
 }  // namespace homing

@@ -2,36 +2,56 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+#include <limits>
+#include <optional>
 
 namespace homing {
 namespace {
 
-// What a side says on a foreign route, logarithm: the best of many steps looks good.
-constexpr double kFirstForeignEvidence = 0.57;
-constexpr double kForeignEvidence = 0.205;
+// A robot is on the route if its best distance is below this part of the distance of places one
+// correlation length apart.
+constexpr double kNearPart = 0.97;
+// Unit of Nearness, in distances of different places.
+constexpr double kNearnessUnit = 0.1;
+// A map is measured again when it has grown by this factor.
+constexpr double kMuchGrown = 1.25;
 // Stored profiles that tell how far away those of other places are; at most twice as many.
 constexpr std::int64_t kSamples = 256;
 // A less probable offset is tried only now and then, once the place is known.
 constexpr double kLeastOffset = 0.05;
 
+bool IsEnough(const std::optional<ProfileMaker>& seen) {
+  return seen && seen->size() >= OdometerReading::kLeastVectors;
+}
+
 bool HasProfiles(const JourneyRef& journey, std::size_t side) {
   return !journey.map->profiles(Side{static_cast<int>(side)}).empty();
 }
 
-std::vector<const FlowProfile*> SampleOf(std::span<const JourneyRef> journeys, Side side) {
+// Stored profiles, and their biases.
+struct Sample {
+  std::vector<const FlowProfile*> profiles;
+  std::vector<std::int16_t> biases;
+};
+
+Sample SampleOf(std::span<const JourneyRef> journeys, std::span<const RouteScale> routes,
+                Side side) {
   std::int64_t all = 0;
   for (const JourneyRef& journey : journeys) {
     all += std::ssize(journey.map->profiles(side));
   }
   const std::int64_t stride = std::max<std::int64_t>(1, all / kSamples);
-  std::vector<const FlowProfile*> sample;
-  sample.reserve(2 * kSamples);
+  Sample sample;
+  sample.profiles.reserve(2 * kSamples);
+  sample.biases.reserve(2 * kSamples);
   std::int64_t next = 0;
-  for (const JourneyRef& journey : journeys) {
-    const auto stored = journey.map->profiles(side);
+  for (std::size_t i = 0; i < journeys.size(); ++i) {
+    const auto stored = journeys[i].map->profiles(side);
+    if (stored.empty()) continue;
+    const std::vector<std::int16_t>& bias = routes[i].sides[static_cast<std::size_t>(side)]->bias;
     for (; next < std::ssize(stored); next += stride) {
-      sample.push_back(&stored[static_cast<std::size_t>(next)]);
+      sample.profiles.push_back(&stored[static_cast<std::size_t>(next)]);
+      sample.biases.push_back(bias[static_cast<std::size_t>(next)]);
     }
     next -= std::ssize(stored);
   }
@@ -48,24 +68,41 @@ ProfileLikelihood::ProfileLikelihood() : anywhere_(PathOffsets::Prior()) {
 
 bool ProfileLikelihood::CanCompare(std::span<const JourneyRef> journeys, const SeenProfiles& seen) {
   return std::ranges::any_of(journeys, [&seen](const JourneyRef& journey) {
-    return (seen[0] && HasProfiles(journey, 0)) || (seen[1] && HasProfiles(journey, 1));
+    return (IsEnough(seen[0]) && HasProfiles(journey, 0)) ||
+           (IsEnough(seen[1]) && HasProfiles(journey, 1));
   });
 }
 
-void ProfileLikelihood::Compute(std::span<const JourneyRef> journeys, const SeenProfiles& seen,
-                                std::span<const StepMass> predicted) {
+void ProfileLikelihood::Grow(std::span<const JourneyRef> journeys) {
+  routes_.resize(journeys.size());
   offsets_.resize(journeys.size());
   for (std::size_t i = 0; i < journeys.size(); ++i) {
-    offsets_[i].Grow(journeys[i].map->step_count());
+    const JourneyMap& map = *journeys[i].map;
+    offsets_[i].Grow(map.step_count());
+    const bool side_is_new = (HasProfiles(journeys[i], 0) && !routes_[i].sides[0]) ||
+                             (HasProfiles(journeys[i], 1) && !routes_[i].sides[1]);
+    if (side_is_new || static_cast<double>(map.step_count()) >
+                           kMuchGrown * static_cast<double>(routes_[i].step_count)) {
+      routes_[i] = MeasureRoute(map);
+    }
+    for (std::optional<SideScale>& side : routes_[i].sides) {
+      if (side) side->bias.resize(static_cast<std::size_t>(map.step_count()));
+    }
   }
+}
+
+void ProfileLikelihood::Compute(std::span<const JourneyRef> journeys, const SeenProfiles& seen,
+                                std::span<const StepMass> predicted, double weight) {
+  weight_ = weight;
+  first_steps_.clear();
+  for (const StepMass& of_journey : predicted) first_steps_.push_back(of_journey.first);
   Choose(journeys, predicted);
   for (std::size_t side = 0; side < seen.size(); ++side) {
     compared_[side] =
-        seen[side] && std::ranges::any_of(journeys, [side](const JourneyRef& journey) {
+        IsEnough(seen[side]) && std::ranges::any_of(journeys, [side](const JourneyRef& journey) {
           return HasProfiles(journey, side);
         });
     if (compared_[side]) {
-      weights_[side] = EvidenceWeight(seen[side]->size());
       Measure(journeys, Side{static_cast<int>(side)}, *seen[side], predicted);
     }
   }
@@ -79,9 +116,12 @@ void ProfileLikelihood::Choose(std::span<const JourneyRef> journeys,
   for (std::size_t i = 0; i < journeys.size(); ++i) {
     all = all && std::ssize(predicted[i].mass) == journeys[i].map->step_count();
   }
+  const auto likeliest =
+      static_cast<std::size_t>(std::ranges::max_element(anywhere_) - anywhere_.begin());
   const auto in_turn = static_cast<std::size_t>(instants_) % kViews;
   for (std::size_t offset = 0; offset < kViews; ++offset) {
-    chosen_[offset] = all || anywhere_[offset] >= kLeastOffset || offset == in_turn;
+    chosen_[offset] =
+        all || anywhere_[offset] >= kLeastOffset || offset == in_turn || offset == likeliest;
   }
 }
 
@@ -103,7 +143,7 @@ void ProfileLikelihood::Measure(std::span<const JourneyRef> journeys, Side side,
   // All views at once: each stored profile is read once.
   std::vector<ProfileView> compared;
   compared.reserve(views.size());
-  const std::vector<const FlowProfile*> sample = SampleOf(journeys, side);
+  const auto [sample, biases] = SampleOf(journeys, routes_, side);
   std::vector<std::uint16_t> of_sample(views.size() * sample.size());
   for (std::size_t i = 0; i < views.size(); ++i) {
     compared.push_back({views[i].profile, covered_[views[i].view],
@@ -111,7 +151,11 @@ void ProfileLikelihood::Measure(std::span<const JourneyRef> journeys, Side side,
   }
   ProfileDistances(compared, std::span(sample));
   for (std::size_t i = 0; i < views.size(); ++i) {
-    scales_[at][views[i].view] = ScaleOf(compared[i].distances);
+    const auto distances = compared[i].distances;
+    for (std::size_t j = 0; j < distances.size(); ++j) {
+      distances[j] = static_cast<std::uint16_t>(std::max(0, distances[j] - biases[j]));
+    }
+    scales_[at][views[i].view] = ScaleOf(distances);
     distances_[at][views[i].view].resize(journeys.size());
   }
   for (std::size_t i = 0; i < journeys.size(); ++i) {
@@ -131,11 +175,15 @@ void ProfileLikelihood::Measure(std::span<const JourneyRef> journeys, Side side,
 }
 
 void ProfileLikelihood::Multiply(std::size_t side, std::size_t view, std::size_t journey,
-                                 std::vector<float>& factors) const {
+                                 std::int64_t first, std::vector<float>& factors) const {
   const std::vector<std::uint16_t>& distances = distances_[side][view][journey];
-  const ProfileRatio& ratio =
-      instants_ == 0 ? ProfileRatio::First() : ProfileRatio::Further(weights_[side]);
-  ratio.Multiply(distances, scales_[side][view], std::span(factors).first(distances.size()));
+  if (distances.empty()) {
+    return;
+  }
+  const std::span<const std::int16_t> bias = routes_[journey].sides[side]->bias;
+  ProfileRatio::OfWeight(weight_).Multiply(
+      distances, bias.subspan(static_cast<std::size_t>(first), distances.size()),
+      scales_[side][view], std::span(factors).first(distances.size()));
 }
 
 float ProfileLikelihood::WeightOf(std::size_t offset, std::size_t journey,
@@ -164,7 +212,6 @@ void ProfileLikelihood::AddOffset(std::size_t offset, std::size_t journey,
       fit += predicted.mass[step] * factors_[step];
     }
     fits_[journey][i][offset] = double{fit};
-    mean_fit_ += double{weight} * double{fit};
   }
 }
 
@@ -173,38 +220,56 @@ void ProfileLikelihood::Weigh(std::span<const StepMass> predicted) {
   likelihoods_.resize(predicted.size());
   fits_.resize(predicted.size());
   first_stretch_.resize(predicted.size());
-  mean_fit_ = 0;
-  double mass = 0;
   for (std::size_t i = 0; i < predicted.size(); ++i) {
     const std::int64_t first = predicted[i].first;
     const std::int64_t end = first + std::ssize(predicted[i].mass);
     likelihoods_[i].assign(predicted[i].mass.size(), 0);
     first_stretch_[i] = static_cast<std::size_t>(first / PathOffsets::kStretch);
     fits_[i].assign(PathOffsets::StretchesOf(end) - first_stretch_[i], OffsetValues{});
-    mass += predicted[i].Sum();
     for (std::size_t offset = 0; offset < kViews; ++offset) {
       if (!chosen_[offset]) continue;
       factors_.assign(predicted[i].mass.size(), 1);
       for (std::size_t side = 0; side < compared_.size(); ++side) {
-        if (compared_[side]) Multiply(side, ViewOf(side, offset), i, factors_);
+        if (compared_[side]) Multiply(side, ViewOf(side, offset), i, first, factors_);
       }
       AddOffset(offset, i, predicted[i]);
     }
   }
-  mean_fit_ /= mass;
 }
 
-double ProfileLikelihood::LogFit() const { return std::log(std::max(mean_fit_, 1e-30)) / sides(); }
+double ProfileLikelihood::NearnessOfSide(std::size_t side, std::size_t journey, std::int64_t first,
+                                         std::int64_t last) const {
+  const auto offset =
+      static_cast<std::size_t>(std::ranges::max_element(anywhere_) - anywhere_.begin());
+  const std::vector<std::uint16_t>& distances = distances_[side][ViewOf(side, offset)][journey];
+  const SideScale& scale = *routes_[journey].sides[side];
+  const std::int64_t held = first_steps_[journey];
+  std::int32_t best = std::numeric_limits<std::int32_t>::max();
+  for (std::int64_t step = std::max(first, held);
+       step <= std::min(last, held + std::ssize(distances) - 1); ++step) {
+    best = std::min(best, std::int32_t{distances[static_cast<std::size_t>(step - held)]} -
+                              std::int32_t{scale.bias[static_cast<std::size_t>(step)]});
+  }
+  return (kNearPart * double{scale.near} - best) / (kNearnessUnit * double{scale.typical});
+}
 
-double ProfileLikelihood::OffRoute() const {
-  if (instants_ == 0) {
-    return kFirstForeignEvidence;
-  }
-  double weight = 0;
+double ProfileLikelihood::Nearness(std::size_t journey, std::int64_t first,
+                                   std::int64_t last) const {
+  double sum = 0, count = 0;
   for (std::size_t side = 0; side < compared_.size(); ++side) {
-    weight += compared_[side] ? static_cast<double>(weights_[side]) / kWholeWeight : 0;
+    if (!compared_[side] || !routes_[journey].sides[side]) continue;
+    sum += NearnessOfSide(side, journey, first, last);
+    count += 1;
   }
-  return kForeignEvidence * weight / sides();
+  return count > 0 ? sum / count : 0;
+}
+
+double ProfileLikelihood::MeanOffset() const {
+  double mean = 0;
+  for (std::size_t offset = 0; offset < kViews; ++offset) {
+    mean += anywhere_[offset] * kPathOffsets[offset];
+  }
+  return mean;
 }
 
 // An offset under which the believed steps fit gains, there.

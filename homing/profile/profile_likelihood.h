@@ -1,6 +1,5 @@
 // How well the steps of the journeys fit the flow profiles seen at one instant: likelihood ratios
-// against a place at random. Source: own design; fitted to matched and unmatched pairs (docs/
-// algorithm.md).
+// against a place at random (docs/algorithm.md).
 #ifndef HOMING_PROFILE_PROFILE_LIKELIHOOD_H_
 #define HOMING_PROFILE_PROFILE_LIKELIHOOD_H_
 
@@ -14,33 +13,41 @@
 #include "homing/profile/profile_distance.h"
 #include "homing/profile/profile_evidence.h"
 #include "homing/profile/profile_views.h"
+#include "homing/profile/route_scale.h"
 #include "homing/profile/step_mass.h"
 
 namespace homing {
 
-// Learns the offset from the outbound path on the way. Not thread-safe.
+// Estimates the offset from the outbound path at the same time. Not thread-safe.
 class ProfileLikelihood {
  public:
   ProfileLikelihood();
 
-  // Some journey has profiles of a side that is seen.
+  // Some journey has profiles of a side that is seen with enough vectors.
   static bool CanCompare(std::span<const JourneyRef> journeys, const SeenProfiles& seen);
 
-  // `predicted`: by journey, the mass of its steps, or of those of its focus, before this instant.
-  // REQUIRES: CanCompare. Computing again, for other steps, is no further observation.
+  // Measures journeys that are new or have grown much.
+  void Grow(std::span<const JourneyRef> journeys);
+  // Of each journey.
+  std::span<const RouteScale> routes() const { return routes_; }
+
+  // `predicted`: by journey, the mass of its steps, or of those of its active window, before this
+  // instant. `weight`: of this observation, (0, 1]; 1 if it depends on nothing seen before.
+  // REQUIRES: Grow(journeys) and CanCompare. Computing again, for other steps, is no further
+  // observation.
   void Compute(std::span<const JourneyRef> journeys, const SeenProfiles& seen,
-               std::span<const StepMass> predicted);
-  // Ends the instant: takes up what it says of the offset.
+               std::span<const StepMass> predicted, double weight);
+  // Ends the instant: updates the offset by what it says.
   void Learn();
 
   // By predicted step. Sides without profiles are neutral: 1.
   std::span<const float> of(std::size_t journey) const { return likelihoods_[journey]; }
-  // Mean over the predicted mass, logarithm, for one side.
-  double LogFit() const;
-  // The value of being off the route, logarithm, for one side.
-  double OffRoute() const;
-  // Sides that were compared: 1 or 2.
-  int sides() const { return (compared_[0] ? 1 : 0) + (compared_[1] ? 1 : 0); }
+  // How much nearer the best of the steps `first` to `last` is than different places of the same
+  // map are, in tenths of the distance of different places; mean of the compared sides. Above 0:
+  // on the route. REQUIRES: some of these steps are predicted.
+  double Nearness(std::size_t journey, std::int64_t first, std::int64_t last) const;
+  // Posterior mean of the offset, in distances of what is seen, to the left of the route.
+  double MeanOffset() const;
 
  private:
   static constexpr std::size_t kViews = kPathOffsets.size();
@@ -51,13 +58,15 @@ class ProfileLikelihood {
     FlowProfile profile;
   };
 
+  double NearnessOfSide(std::size_t side, std::size_t journey, std::int64_t first,
+                        std::int64_t last) const;
   void Choose(std::span<const JourneyRef> journeys, std::span<const StepMass> predicted);
   void Measure(std::span<const JourneyRef> journeys, Side side, const ProfileMaker& seen,
                std::span<const StepMass> predicted);
   // What the chosen offsets make of one side.
   std::vector<SeenView> ViewsOf(std::size_t side, const ProfileMaker& seen) const;
   // Multiplies the factors of one side's view into `factors`.
-  void Multiply(std::size_t side, std::size_t view, std::size_t journey,
+  void Multiply(std::size_t side, std::size_t view, std::size_t journey, std::int64_t first,
                 std::vector<float>& factors) const;
   void Weigh(std::span<const StepMass> predicted);
   // Adds what `factors_` say of one offset to a journey's likelihoods and fits.
@@ -68,8 +77,6 @@ class ProfileLikelihood {
   std::array<CellMask, kViews> covered_;
   std::array<std::array<Distances, kViews>, 2> distances_;
   std::array<std::array<DistanceScale, kViews>, 2> scales_;
-  // EvidenceWeight of each side.
-  std::array<int, 2> weights_{};
   std::array<bool, 2> compared_{};
   // Offsets that are tried at this instant.
   std::array<bool, kViews> chosen_{};
@@ -83,8 +90,12 @@ class ProfileLikelihood {
   std::vector<std::vector<OffsetValues>> fits_;
   // By journey: the first of them.
   std::vector<std::size_t> first_stretch_;
-  // Mean over the predicted mass.
-  double mean_fit_ = 0;
+  // By journey.
+  std::vector<RouteScale> routes_;
+  // First predicted step.
+  std::vector<std::int64_t> first_steps_;
+  // Of this observation.
+  double weight_ = 1;
   std::vector<float> factors_;
   std::vector<std::vector<float>> likelihoods_;
 };

@@ -1,0 +1,52 @@
+#include "homing/localization/speed_evidence.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "homing/profile/route_scale.h"
+
+namespace homing {
+namespace {
+
+// Width of the ratio's distribution (Laplace): this many times its noise, at least kLeastWidth
+// octaves. A fraction kOutlierFraction of the ratios is six times as wide.
+constexpr double kWidthOfNoise = 4;
+constexpr double kLeastWidth = 0.115;
+constexpr double kOutlierFraction = 0.3;
+constexpr double kOutlierWidth = 6;
+// A slower robot counts as standing, log2 of steps an observation.
+constexpr double kStanding = -3.6;
+// Noise at which the odometer counts half as good as it can be, octaves.
+constexpr double kHalfNoise = 0.087;
+// Consecutive ratios of a poor odometer err alike: exponent of what one says.
+constexpr double kPoorWeight = 0.3;
+constexpr double kPoorChange = 0.05;
+
+double Likelihood(double error, double width) {
+  return (1 - kOutlierFraction) * std::exp(-error / width) +
+         kOutlierFraction * std::exp(-error / (kOutlierWidth * width));
+}
+
+}  // namespace
+
+SpeedEvidence::SpeedEvidence(double noise) {
+  const double good = 1 / (1 + std::pow(noise / kHalfNoise, 2));
+  const double weight = kPoorWeight + (1 - kPoorWeight) * good;
+  change_ = kPoorChange + (1 - kPoorChange) * good;
+  const double width = std::max(kLeastWidth, kWidthOfNoise * noise);
+  for (std::size_t speed = 0; speed < kSpeedCount; ++speed) {
+    for (int code = -kMostCode; code <= kMostCode; ++code) {
+      const double ratio = static_cast<double>(code) / CameraOdometer::kPerOctave;
+      const double likelihood =
+          speed == 0
+              ? (1 - kOutlierFraction) * std::exp(-std::max(0.0, ratio - kStanding) / width) +
+                    kOutlierFraction * kOutlierFraction
+              : Likelihood(std::abs(ratio - std::log2(kSpeeds[speed])), width);
+      tables_[speed][static_cast<std::size_t>(code + kMostCode)] =
+          static_cast<float>(std::pow(likelihood, weight));
+    }
+    tables_[speed][kNoRatio] = 1;
+  }
+}
+
+}  // namespace homing

@@ -1,0 +1,216 @@
+#include "homing/profile/route_scale.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <numbers>
+
+#include "homing/flow/median.h"
+#include "homing/profile/profile_distance.h"
+#include "homing/profile/profile_evidence.h"
+
+namespace homing {
+namespace {
+
+// Stored profiles that are compared with all others.
+constexpr std::int64_t kSelfSamples = 256;
+// Places this many correlation lengths apart are different places.
+constexpr double kDifferentPlaces = 4;
+constexpr std::int64_t kMostLag = 200;
+// Part of a step's bias that is taken off. The whole would also take off what tells it apart.
+constexpr double kBiasPart = 0.5;
+// Of the signs of two kinds of flow, one must be this much steadier.
+constexpr double kClearDirection = 0.2;
+// Deviation of normal noise over the median of its absolute second difference.
+const double kDeviationOfRoughness = 1 / (0.6745 * std::sqrt(6.0));
+
+double MedianOf(std::vector<float>& values) {
+  return double{Median(std::span<const float>(values))};
+}
+
+// |mean sign| of the readings' values, 0 to 1.
+template <typename Value>
+double Steadiness(std::span<const FlowProfile> profiles, Value value) {
+  double sum = 0, count = 0;
+  for (const FlowProfile& profile : profiles) {
+    if (!profile.odometer.has_value()) continue;
+    const int v = value(profile.odometer);
+    sum += v > 0 ? 1 : v < 0 ? -1 : 0;
+    count += 1;
+  }
+  return count > 0 ? std::abs(sum) / count : 0;
+}
+
+// Median absolute second difference of the readings, codes.
+template <typename Value>
+double Roughness(std::span<const FlowProfile> profiles, Value value) {
+  std::vector<float> rough;
+  for (std::size_t i = 2; i < profiles.size(); ++i) {
+    const OdometerReading& a = profiles[i - 2].odometer;
+    const OdometerReading& b = profiles[i - 1].odometer;
+    const OdometerReading& c = profiles[i].odometer;
+    if (!a.has_value() || !b.has_value() || !c.has_value()) continue;
+    rough.push_back(static_cast<float>(std::abs(value(a) - 2 * value(b) + value(c))));
+  }
+  return MedianOf(rough);
+}
+
+int LengthOf(const OdometerReading& reading) { return reading.length_code; }
+int SpreadOf(const OdometerReading& reading) { return reading.spread_code; }
+
+// Distances of sampled profiles of one side to all of its stored ones.
+struct SelfDistances {
+  // Steps of the sampled profiles.
+  std::vector<std::int64_t> at;
+  // By sampled profile, then by step.
+  std::vector<std::vector<std::uint16_t>> distances;
+};
+
+SelfDistances MeasureSelf(std::span<const FlowProfile> stored) {
+  SelfDistances self;
+  const std::int64_t stride = std::max<std::int64_t>(1, std::ssize(stored) / kSelfSamples);
+  for (std::int64_t step = 0; step < std::ssize(stored); step += stride) {
+    if (!(stored[static_cast<std::size_t>(step)] == FlowProfile{})) self.at.push_back(step);
+  }
+  const CellMask all = CoveredCells(1);
+  self.distances.resize(self.at.size(), std::vector<std::uint16_t>(stored.size()));
+  std::vector<ProfileView> views;
+  for (std::size_t i = 0; i < self.at.size(); ++i) {
+    views.push_back({stored[static_cast<std::size_t>(self.at[i])], all, self.distances[i]});
+  }
+  ProfileDistances(views, stored);
+  return self;
+}
+
+std::vector<std::int16_t> BiasOf(const SelfDistances& self, std::size_t steps) {
+  std::vector<float> middles(steps);
+  std::vector<std::uint16_t> column(self.at.size());
+  for (std::size_t step = 0; step < steps; ++step) {
+    for (std::size_t i = 0; i < column.size(); ++i) column[i] = self.distances[i][step];
+    middles[step] = static_cast<float>(Median(std::span<const std::uint16_t>(column)));
+  }
+  const float usual = Median(std::span<const float>(middles));
+  std::vector<std::int16_t> bias(steps);
+  for (std::size_t step = 0; step < steps; ++step) {
+    bias[step] = static_cast<std::int16_t>(std::lround(kBiasPart * double{middles[step] - usual}));
+  }
+  return bias;
+}
+
+void TakeOff(std::span<const std::int16_t> bias, SelfDistances& self) {
+  for (auto& row : self.distances) {
+    for (std::size_t step = 0; step < row.size(); ++step) {
+      row[step] = static_cast<std::uint16_t>(std::max(0, row[step] - bias[step]));
+    }
+  }
+}
+
+// The lag at which the mean deviation from different places is half of that at lag 1.
+double CorrelationOf(const SelfDistances& self, std::int64_t steps) {
+  std::vector<DistanceScale> scales;
+  for (const auto& row : self.distances) scales.push_back(ScaleOf(row));
+  double first = 0, before = 0;
+  for (std::int64_t lag = 1; lag < std::min(kMostLag, std::max<std::int64_t>(2, steps / 2));
+       ++lag) {
+    double sum = 0, count = 0;
+    for (std::size_t i = 0; i < self.at.size(); ++i) {
+      for (const std::int64_t other : {self.at[i] - lag, self.at[i] + lag}) {
+        if (other < 0 || other >= steps) continue;
+        sum += double{scales[i].Deviations(self.distances[i][static_cast<std::size_t>(other)])};
+        count += 1;
+      }
+    }
+    const double mean = count > 0 ? sum / count : 0;
+    if (lag == 1) {
+      first = mean;
+    } else if (mean > 0.5 * first) {
+      return static_cast<double>(lag) - 1 +
+             std::clamp((0.5 * first - before) / (mean - before), 0.0, 1.0);
+    }
+    before = mean;
+  }
+  return std::clamp<double>(static_cast<double>(steps) / 2, 1, static_cast<double>(kMostLag));
+}
+
+// Medians of the distances of pairs `near` steps apart, and of pairs further apart than `far`.
+void FillDistances(const SelfDistances& self, std::int64_t near, std::int64_t far,
+                   SideScale& side) {
+  std::vector<float> near_ones, far_ones, all;
+  for (std::size_t i = 0; i < self.at.size(); ++i) {
+    for (std::int64_t step = 0; step < std::ssize(self.distances[i]); ++step) {
+      const auto distance = static_cast<float>(self.distances[i][static_cast<std::size_t>(step)]);
+      const std::int64_t lag = std::abs(step - self.at[i]);
+      if (lag == near) near_ones.push_back(distance);
+      if (lag > far) far_ones.push_back(distance);
+      if (lag > 0) all.push_back(distance);
+    }
+  }
+  // A map shorter than the distance of different places: its pairs are all that is known.
+  side.typical = std::max(1.0F, static_cast<float>(MedianOf(far_ones.empty() ? all : far_ones)));
+  side.near = near_ones.empty() ? side.typical : static_cast<float>(MedianOf(near_ones));
+}
+
+}  // namespace
+
+CameraOdometer::CameraOdometer(std::span<const FlowProfile> profiles) {
+  const double across = Steadiness(profiles, [](const auto& r) { return int{r.median_x}; });
+  const double along = Steadiness(profiles, [](const auto& r) { return int{r.expansion}; });
+  if (across == 0 && along == 0) {
+    return;
+  }
+  if (across >= along + kClearDirection) {
+    direction_ = CameraDirection::kAcross;
+  } else if (along >= across + kClearDirection) {
+    direction_ = CameraDirection::kAlong;
+    length_weight_ = 0;
+  } else {
+    direction_ = CameraDirection::kMixed;
+    const double length = std::pow(std::max(1.0, Roughness(profiles, LengthOf)), 2);
+    const double spread = std::pow(std::max(1.0, Roughness(profiles, SpreadOf)), 2);
+    length_weight_ = static_cast<float>(spread / (length + spread));
+  }
+}
+
+std::int16_t CameraOdometer::Read(const OdometerReading& reading) const {
+  if (!reading.has_value()) {
+    return kNone;
+  }
+  return static_cast<std::int16_t>(
+      std::lround(length_weight_ * static_cast<float>(reading.length_code) +
+                  (1 - length_weight_) * static_cast<float>(reading.spread_code)));
+}
+
+RouteScale MeasureRoute(const JourneyMap& map) {
+  RouteScale route;
+  route.step_count = map.step_count();
+  std::array<SelfDistances, 2> selves;
+  std::vector<double> lengths, noises;
+  for (const Side side : {Side::kLeft, Side::kRight}) {
+    const auto stored = map.profiles(side);
+    if (stored.empty()) continue;
+    const auto at = static_cast<std::size_t>(side);
+    SideScale& scale = route.sides[at].emplace();
+    scale.odometer = CameraOdometer(stored);
+    selves[at] = MeasureSelf(stored);
+    scale.bias = BiasOf(selves[at], stored.size());
+    TakeOff(scale.bias, selves[at]);
+    lengths.push_back(CorrelationOf(selves[at], map.step_count()));
+    const auto read = [&scale](const OdometerReading& r) { return int{scale.odometer.Read(r)}; };
+    noises.push_back(Roughness(stored, read) * kDeviationOfRoughness / CameraOdometer::kPerOctave);
+  }
+  if (lengths.empty()) {
+    return route;
+  }
+  route.correlation_steps = std::max(1.0, *std::ranges::min_element(lengths));
+  // The map's noise and that of the robot now, which has the same cameras; two cameras average.
+  route.odometer_noise = *std::ranges::max_element(noises) * std::numbers::sqrt2 /
+                         std::sqrt(static_cast<double>(noises.size()));
+  const auto near = static_cast<std::int64_t>(std::lround(route.correlation_steps));
+  const auto far = static_cast<std::int64_t>(std::ceil(kDifferentPlaces * route.correlation_steps));
+  for (std::size_t at = 0; at < selves.size(); ++at) {
+    if (route.sides[at]) FillDistances(selves[at], near, far, *route.sides[at]);
+  }
+  return route;
+}
+
+}  // namespace homing

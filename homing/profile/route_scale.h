@@ -1,0 +1,71 @@
+// What the map of one journey shows about itself: how alike its different places are, over how many
+// steps its profiles stay alike, and how far the robot moved at each step. The filter needs no
+// constant that depends on camera, scene or route length, because these figures take its place.
+#ifndef HOMING_PROFILE_ROUTE_SCALE_H_
+#define HOMING_PROFILE_ROUTE_SCALE_H_
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "homing/journey/journey_map.h"
+
+namespace homing {
+
+// Where a camera looks, read from the signs of its flow over the journey (METHOD 7).
+enum class CameraDirection { kUnknown = 0, kAcross = 1, kAlong = 2, kMixed = 3 };
+
+// The odometer of one camera: log2 of the flow that measures motion. Which flow this is depends on
+// where the camera looks: the median length across the direction of travel, the spread along it,
+// and a weighted mean of both for an oblique camera.
+class CameraOdometer {
+ public:
+  // Units of a reading: 1/20 octave.
+  static constexpr std::int16_t kPerOctave = 20;
+  // No reading.
+  static constexpr std::int16_t kNone = INT16_MIN;
+
+  CameraOdometer() = default;
+  explicit CameraOdometer(std::span<const FlowProfile> profiles);
+
+  // kNone where the observation has no reading.
+  std::int16_t Read(const OdometerReading& reading) const;
+  CameraDirection direction() const { return direction_; }
+
+ private:
+  CameraDirection direction_ = CameraDirection::kUnknown;
+  // Weight of the median length; the rest is the spread's.
+  float length_weight_ = 1;
+};
+
+// Of the profiles of one side. Immutable.
+struct SideScale {
+  CameraOdometer odometer;
+  // By step: half of what its distance to other places lies above the usual one. A step that is
+  // near to everything would attract every observation.
+  std::vector<std::int16_t> bias;
+  // Distance of different places, after the bias: the median of all pairs, and of pairs one
+  // correlation length apart.
+  float typical = 1;
+  float near = 1;
+};
+
+// Immutable.
+struct RouteScale {
+  // Steps of the map when this was computed.
+  std::int64_t step_count = 0;
+  // Empty for a side without profiles.
+  std::array<std::optional<SideScale>, 2> sides;
+  // Lag at which the likeness of neighbours has halved, steps. At least 1.
+  double correlation_steps = 1;
+  // Deviation of the noise of log2(flow now / flow stored), octaves.
+  double odometer_noise = 0;
+};
+
+RouteScale MeasureRoute(const JourneyMap& map);
+
+}  // namespace homing
+
+#endif  // HOMING_PROFILE_ROUTE_SCALE_H_
