@@ -6,7 +6,7 @@
 
 #include "absl/strings/str_format.h"
 #include "tests/accuracy/scores.h"
-#include "tests/accuracy/sequences.h"
+#include "tests/accuracy/simulated_runs.h"
 
 namespace homing::accuracy {
 namespace {
