@@ -46,9 +46,8 @@ class Maker {
     for (std::size_t side = 0; side < images.size(); ++side) {
       if (instant.flow.fields[side]) instant.pictures[side] = PictureOf(images[side]);
     }
-    instant.reference =
-        std::max<std::int64_t>(0, instant.MakesStep() ? ReferenceOf(instant.flow, instant.frame)
-                                                      : instant.frame - 1);
+    instant.reference = std::max<std::int64_t>(
+        0, instant.MakesStep() ? ReferenceOf(instant.flow, instant.frame) : instant.frame - 1);
     places_.push_back(place);
     drive_.push_back(std::move(instant));
   }
@@ -144,9 +143,8 @@ std::vector<Drive> SimulatedDrives(const std::vector<std::string>& specs,
     const auto simulator = SimulatorOf(spec);
     Maker maker;
     for (std::int64_t i = 0; i < simulator->frame_count(); ++i) {
-      maker.Add(
-          {simulator->RenderCamera(i, Side::kLeft), simulator->RenderCamera(i, Side::kRight)},
-          simulator->RouteMetres(i));
+      maker.Add({simulator->RenderCamera(i, Side::kLeft), simulator->RenderCamera(i, Side::kRight)},
+                simulator->RouteMetres(i));
     }
     drives.push_back(maker.Take());
     kept.Write(spec.substr(4), drives.back());

@@ -93,9 +93,8 @@ double MedianMicroseconds(const JourneyMap& map, const LocalizerOptions& options
 }
 
 Answer AnswerOf(const StepPlaces& places, const Position& position) {
-  Answer answer{.score = position.probability,
-                .outcome = position.outcome,
-                .on_route = OnRouteOf(position)};
+  Answer answer{
+      .score = position.probability, .outcome = position.outcome, .on_route = OnRouteOf(position)};
   if (position.step) {
     answer.map = position.journey;
     answer.place = PlaceOf(places, position.journey, *position.step);
@@ -188,7 +187,8 @@ void LocalizeRun(const client::Connection* server, int number, Run& run) {
 }
 
 double MicrosecondsAnObservation(const Run& run) {
-  return MedianMicroseconds(MapOf(ObservationsOf(*run.maps[0])), OptionsOf(run), ObservationsOf(run.QuerySteps()));
+  return MedianMicroseconds(MapOf(ObservationsOf(*run.maps[0])), OptionsOf(run),
+                            ObservationsOf(run.QuerySteps()));
 }
 
 double MicrosecondsAtSteps(std::int64_t steps) {

@@ -98,9 +98,8 @@ void WriteDetails(const std::string& path, const std::vector<Run>& runs) {
       const Answer& answer = runs[r].homing[i];
       file << absl::StrFormat("%s,%d,%d,%.3f,%.3f,%.4f,%.4f,%d,%d,%d\n", runs[r].set, r,
                               runs[r].query[i]->frame, runs[r].query[i]->place, answer.place,
-                              answer.score, answer.on_route,
-                              static_cast<int>(answer.outcome), runs[r].Judged(i),
-                              runs[r].Right(answer, i));
+                              answer.score, answer.on_route, static_cast<int>(answer.outcome),
+                              runs[r].Judged(i), runs[r].Right(answer, i));
     }
   }
 }
@@ -138,7 +137,8 @@ absl::Status DrawPictures(const std::string& folder, const std::vector<Run>& run
   for (const bool real : {true, false}) {
     std::vector<const Run*> group;
     for (const Run& run : runs) {
-      if (run.real == real && !run.foreign && !run.set.ends_with("kidnapped")) group.push_back(&run);
+      if (run.real == real && !run.foreign && !run.set.ends_with("kidnapped"))
+        group.push_back(&run);
     }
     if (!group.empty()) {
       calibrations.push_back({real ? "real sequences" : "simulated routes",

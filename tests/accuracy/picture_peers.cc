@@ -127,8 +127,7 @@ Answers SeqSlam(const Run& run, const Differences& differences, int window) {
     }
     const double lead = second < 1e9 ? second - best[static_cast<std::size_t>(found)]
                                      : -best[static_cast<std::size_t>(found)];
-    answers.push_back(
-        {.place = map[static_cast<std::size_t>(found)]->place, .score = lead});
+    answers.push_back({.place = map[static_cast<std::size_t>(found)]->place, .score = lead});
   }
   return run.ByInstant(answers);
 }
@@ -158,8 +157,8 @@ Answers PictureFilter(const Run& run, const Differences& differences, double slo
     belief.Weigh(factors);
     belief.Scale(1 / std::max(belief.Mass(), 1e-20));
     const StepWindow window = BestWindow(belief.Masses(), run.tolerance_steps, places);
-    answers.push_back({.place = map[static_cast<std::size_t>(window.step)]->place,
-                       .score = window.mass});
+    answers.push_back(
+        {.place = map[static_cast<std::size_t>(window.step)]->place, .score = window.mass});
   }
   return run.ByInstant(answers);
 }

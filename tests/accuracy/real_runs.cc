@@ -110,9 +110,8 @@ class Planner {
  private:
   std::string AddFiles(ImageFiles images) {
     const std::string name = images.name;
-    plan_.AddDrive(name, [images = std::move(images), cache = cache_] {
-      return DriveOfFiles(images, cache);
-    });
+    plan_.AddDrive(
+        name, [images = std::move(images), cache = cache_] { return DriveOfFiles(images, cache); });
     return name;
   }
 
@@ -154,7 +153,8 @@ class Planner {
       const std::string images = folder + "query" + pass;
       if (!std::filesystem::is_directory(images)) continue;
       const Truth truth = TruthOf(folder + "truth" + pass + ".csv", FilesOf(images).size());
-      const std::string query = AddFolder({absl::StrCat(name, " query", pass), images}, truth.places);
+      const std::string query =
+          AddFolder({absl::StrCat(name, " query", pass), images}, truth.places);
       AddPass(pass.empty() ? name : absl::StrCat(name, ":", pass), map, query, truth.tolerance);
       tolerance = truth.tolerance;
     }

@@ -8,9 +8,9 @@
 
 namespace homing::accuracy {
 
-// `data`: the folder of real sequences. Sets: "laps", "laps dim", "gantry", "shop" and "NAME", "NAME:2", ...
-// of each other folder that holds a map; "foreign NAME" (another route of the same camera) and "foreign
-// NAME OTHER" (the query of another set, brought to the map's size).
+// `data`: the folder of real sequences. Sets: "laps", "laps dim", "gantry", "shop" and "NAME",
+// "NAME:2", ... of each other folder that holds a map; "foreign NAME" (another route of the same
+// camera) and "foreign NAME OTHER" (the query of another set, brought to the map's size).
 void PlanRealRuns(const std::string& data, const std::string& cache, RunPlan& plan);
 
 }  // namespace homing::accuracy

@@ -69,7 +69,8 @@ struct Run {
     return steps;
   }
 
-  // Answers to QuerySteps() as answers by instant: at a frame that makes no step the last one stands.
+  // Answers to QuerySteps() as answers by instant: at a frame that makes no step the last one
+  // stands.
   Answers ByInstant(const Answers& by_step) const {
     Answers answers;
     std::size_t steps = 0;

@@ -24,8 +24,7 @@ SetFilter::SetFilter(const std::string& words)
 bool SetFilter::Wants(const Run& run) const {
   return words_.empty() || std::ranges::any_of(words_, [&run](const std::string& word) {
            return run.set == word || run.set.starts_with(word + " ") ||
-                  run.set.starts_with(word + ":") ||
-                  (word == "real" && run.real && !run.foreign) ||
+                  run.set.starts_with(word + ":") || (word == "real" && run.real && !run.foreign) ||
                   (word == "simulated" && !run.real);
          });
 }

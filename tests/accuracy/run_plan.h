@@ -15,8 +15,9 @@ namespace homing::accuracy {
 // The sets to run.
 class SetFilter {
  public:
-  // Words between commas: "real" (all passes of real routes), "simulated", "foreign" (real maps, queries from
-  // elsewhere), a set ("office:2"), or how one begins ("office", "street"). Empty: all.
+  // Words between commas: "real" (all passes of real routes), "simulated", "foreign" (real maps,
+  // queries from elsewhere), a set ("office:2"), or how one begins ("office", "street"). Empty:
+  // all.
   explicit SetFilter(const std::string& words);
 
   bool Wants(const Run& run) const;
@@ -30,8 +31,8 @@ class RunPlan {
   // One call of `make` gives the drives of these names.
   void AddDrives(std::vector<std::string> names, std::function<std::vector<Drive>()> make);
   void AddDrive(const std::string& name, std::function<Drive()> make);
-  // `finish` is called once the run has its drives. If `run.tolerance_steps` is 0 it becomes the number
-  // of the map's steps in the tolerance.
+  // `finish` is called once the run has its drives. If `run.tolerance_steps` is 0 it becomes the
+  // number of the map's steps in the tolerance.
   void AddRun(Run run, const std::string& map, const std::string& query,
               std::function<void(Run&)> finish = {});
 

@@ -119,10 +119,9 @@ class Planner {
     const int other = seeds_.first + (index + 1) % seeds_.count;
     const std::string map = Spec(scene, seed, "");
     for (std::uint64_t trial = 0; trial < 3; ++trial) {
-      plan_.AddRun(SimulatedRun(scene + " kidnapped"), map, Spec(scene, seed, kSame),
-                   [seed, trial](Run& run) {
-                     Kidnap(static_cast<std::uint64_t>(seed) * 100 + trial, run);
-                   });
+      plan_.AddRun(
+          SimulatedRun(scene + " kidnapped"), map, Spec(scene, seed, kSame),
+          [seed, trial](Run& run) { Kidnap(static_cast<std::uint64_t>(seed) * 100 + trial, run); });
     }
     Run foreign = SimulatedRun(scene + " foreign");
     foreign.foreign = true;

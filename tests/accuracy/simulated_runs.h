@@ -14,8 +14,8 @@ struct Seeds {
   int count = 0;
 };
 
-// "street" and "landmarks", routes of 60 m: sets "SCENE CONDITION" for same, fast, near, dark, bright,
-// return, remove, wobble, stop, two; "SCENE foreign"; "SCENE kidnapped".
+// "street" and "landmarks", routes of 60 m: sets "SCENE CONDITION" for same, fast, near, dark,
+// bright, return, remove, wobble, stop, two; "SCENE foreign"; "SCENE kidnapped".
 void PlanSimulatedRuns(const Seeds& seeds, const std::string& cache, RunPlan& plan);
 
 // Instant at which a kidnapped robot is set down elsewhere: the first of run.query whose place is
