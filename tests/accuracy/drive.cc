@@ -3,9 +3,13 @@
 #include <algorithm>
 #include <cstdlib>
 #include <iostream>
+#include <memory>
 #include <opencv2/imgproc.hpp>
 
+#include "absl/strings/str_cat.h"
 #include "client/frame_source.h"
+#include "client/simulator/frame_schedule.h"
+#include "client/simulator/simulation_spec.h"
 #include "homing/image/frame.h"
 #include "tests/accuracy/drive_cache.h"
 
@@ -85,12 +89,66 @@ cv::Mat ReadImage(const std::string& file, const cv::Size& size) {
   return resized;
 }
 
-std::unique_ptr<client::Simulator> SimulatorOf(const std::string& spec) {
-  const auto parsed = client::ParseSimulationSpec(spec);
-  if (!parsed.ok()) Fail(std::string(parsed.status().message()));
-  auto simulator = client::Simulator::Create(*parsed);
+client::SimulationSpec Parsed(const std::string& text) {
+  const auto spec = client::ParseSimulationSpec(text);
+  if (!spec.ok()) Fail(std::string(spec.status().message()));
+  return *spec;
+}
+
+// The frames that the cameras take, all of which arrive.
+std::unique_ptr<client::Simulator> CamerasOf(client::SimulationSpec spec) {
+  const std::uint64_t drive_seed = DriveSeed(spec);
+  spec.repeat = 0;
+  spec.drop = 0;
+  spec.drop_run = 0;
+  if (DriveSeed(spec) != drive_seed) Fail("lost and repeated frames need the key drive");
+  auto simulator = client::Simulator::Create(spec);
   if (!simulator.ok()) Fail(std::string(simulator.status().message()));
   return *std::move(simulator);
+}
+
+// What arrives of the frames that are taken.
+class Arrivals {
+ public:
+  Arrivals(const client::SimulationSpec& spec, std::int64_t taken) : schedule_(spec, taken) {}
+
+  // REQUIRES: frames are given in order.
+  void Take(std::int64_t taken, const Images& images, double place) {
+    Images given = images;
+    for (const Side camera : {Side::kLeft, Side::kRight}) {
+      if (schedule_.IsAbsent(taken, camera)) given[static_cast<std::size_t>(camera)] = cv::Mat();
+    }
+    while (next_ < schedule_.frame_count() && schedule_.TakenAt(next_) <= taken) {
+      if (schedule_.TakenAt(next_++) == taken) maker_.Add(given, place);
+    }
+  }
+
+  Drive Finish() { return maker_.Take(); }
+
+ private:
+  client::FrameSchedule schedule_;
+  std::int64_t next_ = 0;
+  Maker maker_;
+};
+
+// In the order of `specs`.
+std::vector<Drive> Simulate(const std::vector<SimulatedDriveSpec>& specs) {
+  const SimulatedDriveSpec& first = specs.front();
+  const auto cameras = CamerasOf(Parsed(first.spec));
+  const std::int64_t frames = cameras->frame_count();
+  std::vector<Arrivals> arrivals;
+  for (const SimulatedDriveSpec& spec : specs) arrivals.emplace_back(Parsed(spec.spec), frames);
+  const double end = cameras->RouteMetres(frames - 1);
+  for (std::int64_t i = 0; i < frames; ++i) {
+    const double place = cameras->RouteMetres(i);
+    if (first.tail_m > 0 && std::abs(end - place) > first.tail_m) continue;
+    Images images = {cameras->RenderCamera(i, Side::kLeft), cv::Mat()};
+    if (first.both_cameras) images[1] = cameras->RenderCamera(i, Side::kRight);
+    for (Arrivals& each : arrivals) each.Take(i, images, place);
+  }
+  std::vector<Drive> drives;
+  for (Arrivals& each : arrivals) drives.push_back(each.Finish());
+  return drives;
 }
 
 }  // namespace
@@ -131,24 +189,21 @@ Drive DriveOfFiles(const ImageFiles& images, const std::string& cache) {
   return drive;
 }
 
-std::vector<Drive> SimulatedDrives(const std::vector<std::string>& specs,
+std::string SimulatedDriveSpec::Name() const {
+  return absl::StrCat(spec.substr(4), both_cameras ? "" : " left",
+                      tail_m > 0 ? absl::StrCat(" last ", tail_m) : "");
+}
+
+std::vector<Drive> SimulatedDrives(const std::vector<SimulatedDriveSpec>& specs,
                                    const std::string& cache) {
   const DriveCache kept(cache);
   std::vector<Drive> drives;
-  for (const std::string& spec : specs) {
-    if (auto drive = kept.Read(spec.substr(4))) {
-      drives.push_back(*std::move(drive));
-      continue;
-    }
-    const auto simulator = SimulatorOf(spec);
-    Maker maker;
-    for (std::int64_t i = 0; i < simulator->frame_count(); ++i) {
-      maker.Add({simulator->RenderCamera(i, Side::kLeft), simulator->RenderCamera(i, Side::kRight)},
-                simulator->RouteMetres(i));
-    }
-    drives.push_back(maker.Take());
-    kept.Write(spec.substr(4), drives.back());
+  for (const SimulatedDriveSpec& spec : specs) {
+    if (auto drive = kept.Read(spec.Name())) drives.push_back(*std::move(drive));
   }
+  if (drives.size() == specs.size()) return drives;
+  drives = Simulate(specs);
+  for (std::size_t i = 0; i < specs.size(); ++i) kept.Write(specs[i].Name(), drives[i]);
   return drives;
 }
 

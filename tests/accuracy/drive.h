@@ -60,9 +60,22 @@ cv::Size ImageSizeOf(const std::string& file);
 // empty.
 Drive DriveOfFiles(const ImageFiles& images, const std::string& cache);
 
-// "sim:..." of the command line. All specs render the same frames: they differ in which of them are
-// lost or repeated. Kept in `cache` (a folder, or empty: not kept).
-std::vector<Drive> SimulatedDrives(const std::vector<std::string>& specs, const std::string& cache);
+struct SimulatedDriveSpec {
+  // "sim:..." of the command line.
+  std::string spec;
+  // Else the left one alone.
+  bool both_cameras = true;
+  // Only the last so many metres are driven; 0: all.
+  double tail_m = 0;
+
+  // Names the drive, also in the cache.
+  std::string Name() const;
+};
+
+// All drives show the same frames: they differ in which of them are lost or repeated. `cache`: as
+// above.
+std::vector<Drive> SimulatedDrives(const std::vector<SimulatedDriveSpec>& specs,
+                                   const std::string& cache);
 
 // Ends the program with the reason.
 [[noreturn]] void Fail(const std::string& reason);

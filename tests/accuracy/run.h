@@ -50,7 +50,8 @@ struct Run {
   int tolerance_steps = 10;
   // Only instants further than this from the first are judged.
   double after = 0;
-  // The route ends here, units of place; what is driven beyond has no true step. NaN: nothing is.
+  // The route ends here (home: 0), units of place; what is driven beyond has no true step. NaN:
+  // nothing is.
   double end = std::numeric_limits<double>::quiet_NaN();
 
   // By instant.

@@ -2,12 +2,20 @@
 #ifndef TESTS_ACCURACY_SIMULATED_RUNS_H_
 #define TESTS_ACCURACY_SIMULATED_RUNS_H_
 
+#include <array>
 #include <cstdint>
 #include <string>
 
 #include "tests/accuracy/run_plan.h"
 
 namespace homing::accuracy {
+
+inline constexpr std::array<const char*, 10> kConditions = {
+    "same", "fast", "near", "dark", "bright", "return", "remove", "wobble", "stop", "two"};
+inline constexpr std::array<const char*, 11> kMoreConditions = {
+    "varied speed", "map 30 fps",         "home 30 fps",  "repeated frames",
+    "lost frames",  "lost on one camera", "steering",     "turned",
+    "ahead",        "creeping map",       "creeping home"};
 
 struct Seeds {
   int first = 1;
