@@ -80,7 +80,7 @@ std::optional<client::Connection> Connect(const std::string& address) {
 // Of the first run of each set.
 void Measure(Measurements& all) {
   for (const Run& run : all.runs) {
-    if (!all.bytes.empty() && all.bytes.back().first == run.set) continue;
+    if (run.foreign || (!all.bytes.empty() && all.bytes.back().first == run.set)) continue;
     all.bytes.emplace_back(run.set, BytesACameraStep(run));
     all.microseconds.emplace_back(run.set, MicrosecondsAnObservation(run));
   }
@@ -160,6 +160,7 @@ int Main(const Flags& flags) {
     LocalizeRun(server ? &*server : nullptr, static_cast<int>(i), measurements.runs[i]);
   });
   if (server && flags.fleet > 0) measurements.fleet = RunFleet(*server, {.journeys = flags.fleet});
+  measurements.has_peers = flags.peers;
   if (flags.peers) RunPeers(measurements.runs);
   if (flags.peers) Measure(measurements);
   if (!flags.details.empty()) WriteDetails(flags.details, measurements.runs);
