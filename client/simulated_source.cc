@@ -1,5 +1,7 @@
 #include "client/simulated_source.h"
 
+#include <cmath>
+
 #include "homing/base/status_macros.h"
 
 namespace homing::client {
@@ -7,14 +9,20 @@ namespace {
 
 class SimulatedSource : public FrameSource {
  public:
-  SimulatedSource(std::unique_ptr<Simulator> simulator, Side camera)
-      : simulator_(std::move(simulator)), camera_(camera) {}
+  // `has_times`: frames have their times, by which a frame without its partner is known.
+  SimulatedSource(std::unique_ptr<Simulator> simulator, Side camera, bool has_times)
+      : simulator_(std::move(simulator)), camera_(camera), has_times_(has_times) {}
 
   absl::StatusOr<std::optional<SourceFrame>> Next() override {
-    if (next_ >= size()) return std::optional<SourceFrame>();
-    const cv::Mat image = simulator_->RenderCamera(next_++, camera_);
+    cv::Mat image;
+    while (image.empty()) {
+      if (next_ >= size()) return std::optional<SourceFrame>();
+      image = simulator_->RenderCamera(next_++, camera_);
+    }
     SourceFrame frame{FrameEncoding::kGray8, image.cols, image.rows, {}, 0};
     frame.data.assign(reinterpret_cast<const char*>(image.data), image.total());
+    // 0 would be no time.
+    if (has_times_) frame.capture_time_ns = 1 + std::llround(1e9 * simulator_->TimeS(next_ - 1));
     return std::make_optional(std::move(frame));
   }
   std::int64_t size() const override { return simulator_->frame_count(); }
@@ -27,6 +35,7 @@ class SimulatedSource : public FrameSource {
  private:
   std::unique_ptr<Simulator> simulator_;
   Side camera_;
+  bool has_times_;
   std::int64_t next_ = 0;
 };
 
@@ -35,7 +44,7 @@ class SimulatedSource : public FrameSource {
 absl::StatusOr<std::unique_ptr<FrameSource>> MakeSimulatedSource(const SimulationSpec& spec,
                                                                  Side camera) {
   HOMING_ASSIGN_OR_RETURN(auto simulator, Simulator::Create(spec));
-  return std::make_unique<SimulatedSource>(std::move(simulator), camera);
+  return std::make_unique<SimulatedSource>(std::move(simulator), camera, spec.drop_run > 0);
 }
 
 }  // namespace homing::client

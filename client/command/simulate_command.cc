@@ -50,7 +50,7 @@ absl::Status WriteInstant(const SimulateFlags& flags, std::int64_t index,
   for (std::size_t camera = 0; camera < kCameraNames.size(); ++camera) {
     truth << absl::StrFormat("%d,%s,%.4f,%d\n", index, kCameraNames[camera], instant.route_m,
                              instant.truth[camera].landmark);
-    if (flags.truth_only) continue;
+    if (flags.truth_only || instant.images[camera].empty()) continue;
     HOMING_RETURN_IF_ERROR(
         WritePng(absl::StrFormat("%s/%s/%06d.png", flags.folder, kCameraNames[camera], index),
                  ToSourceFrame(instant.images[camera])));
@@ -97,9 +97,11 @@ void AddSimulateCommand(CLI::App& app, Session& session) {
       "Write the simulated robot's frames (left/, right/) and truth.csv; needs no server");
   auto flags = std::make_shared<SimulateFlags>();
   command
-      .add_option("--scene", flags->scene,
-                  "street or landmarks, then [,key=value...]: seed, length, fps, speed, offset, "
-                  "light, noise, remove, wobble, stop, travel")
+      .add_option(
+          "--scene", flags->scene,
+          "street or landmarks, then [,key=value...]: seed, length, fps, speed, offset, "
+          "light, noise, remove, wobble, stop, vary, extra, yaw, yaw_wobble, rough, repeat, "
+          "drop, drop_run, travel, drive")
       ->required()
       ->check([](const std::string& text) {
         return std::string(ParseSimulationSpec(SceneText(text)).status().message());

@@ -4,6 +4,7 @@
 #define CLIENT_SIMULATOR_GEOMETRY_H_
 
 #include <cmath>
+#include <numbers>
 #include <opencv2/core.hpp>
 
 #include "homing/flow/observation.h"
@@ -26,6 +27,10 @@ struct Pose {
     return position + along_m * Along() + left_m * Left();
   }
 };
+
+// A full turn and a degree, radians.
+inline constexpr double kTurn = 2 * std::numbers::pi;
+inline constexpr double kDegree = std::numbers::pi / 180;
 
 inline Vector3 Raise(const Vector2& ground, double z) { return {ground[0], ground[1], z}; }
 
@@ -52,6 +57,16 @@ inline CameraPose LookAside(const Pose& pose, double height_m, Side side) {
   const double sign = side == Side::kLeft ? 1 : -1;
   return {Raise(pose.position, height_m), Raise(sign * pose.Along(), 0),
           Raise(sign * pose.Left(), 0)};
+}
+
+// The same camera turned clockwise about the vertical axis (seen from above), radians.
+inline CameraPose TurnedClockwise(const CameraPose& camera, double angle) {
+  const double c = std::cos(angle);
+  const double s = std::sin(angle);
+  const auto turn = [&](const Vector3& v) {
+    return Vector3(c * v[0] + s * v[1], c * v[1] - s * v[0], v[2]);
+  };
+  return {camera.origin, turn(camera.right), turn(camera.forward)};
 }
 
 // A ray in camera coordinates with Z = 1: the point at depth d is d (x, y, 1).

@@ -87,7 +87,7 @@ class BrightnessRenderer {
   void FindPlaces() {
     ForEachPixel([&](int x, int y, std::size_t pixel) {
       if (map_.surfaces[pixel] != kSky) {
-        places_[pixel] = PlaceOn(SurfaceAt(pixel), RayAt(x, y), map_.depths[pixel]);
+        places_[pixel] = PlaceOn(SurfaceAt(pixel), view_.rays().At(x, y), map_.depths[pixel]);
       }
     });
   }
@@ -137,7 +137,7 @@ class BrightnessRenderer {
     float sum = 0;
     for (const double dy : {-0.25, 0.25}) {
       for (const double dx : {-0.25, 0.25}) {
-        sum += ShadeRay(RayAt(x + dx, y + dy), cross);
+        sum += ShadeRay(view_.rays().At(x + dx, y + dy), cross);
       }
     }
     return 0.25F * sum;

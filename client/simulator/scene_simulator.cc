@@ -41,46 +41,63 @@ SceneSimulator::SceneSimulator(const SimulationSpec& spec, Route route, Scene sc
       scene_(std::move(scene)),
       camera_height_m_(camera_height_m),
       trajectory_(spec, DriveSeed(spec)),
+      schedule_(spec, trajectory_.frame_count()),
       sensor_{spec.light, spec.noise, DriveSeed(spec)} {}
 
-View SceneSimulator::ViewAt(std::int64_t index, Side camera) const {
+View SceneSimulator::ViewAt(std::int64_t taken, Side camera) const {
   const bool looks_left = (camera == Side::kLeft) != spec_.travel_return;
   const Side side = looks_left ? Side::kLeft : Side::kRight;
-  return {scene_, trajectory_.RouteMetres(index),
-          LookAside(trajectory_.At(index, route_), camera_height_m_, side)};
+  const Pose pose = trajectory_.At(taken, route_);
+  const Trajectory::Jolt jolt = trajectory_.JoltAt(taken);
+  CameraPose upright = LookAside(pose, camera_height_m_ + jolt.height_m, side);
+  if (spec_.yaw_deg != 0) {
+    upright = TurnedClockwise(upright, spec_.yaw_deg * kDegree);
+  }
+  const Vector3 axis = Raise(jolt.roll * pose.Along() + jolt.pitch * pose.Left(), 0);
+  return {scene_, trajectory_.RouteMetres(taken), upright,
+          Tilt{axis.dot(upright.right), axis.dot(upright.forward)}};
 }
 
-cv::Mat SceneSimulator::Image(const View& view, const SurfaceMap& map, std::int64_t index,
+cv::Mat SceneSimulator::Image(const View& view, const SurfaceMap& map, std::int64_t taken,
                               Side camera) const {
-  return sensor_.Expose(RenderBrightness(view, map), index, camera);
+  return sensor_.Expose(RenderBrightness(view, map), taken, camera);
 }
 
 SimulatedInstant SceneSimulator::Render(std::int64_t index) const {
+  const std::int64_t taken = schedule_.TakenAt(index);
   SimulatedInstant instant;
-  instant.time_s = trajectory_.TimeS(index);
-  instant.route_m = RouteMetres(index);
+  instant.time_s = trajectory_.TimeS(taken);
+  instant.route_m = trajectory_.RouteMetres(taken);
   for (const Side camera : {Side::kLeft, Side::kRight}) {
-    const View view = ViewAt(index, camera);
+    if (schedule_.IsAbsent(taken, camera)) {
+      continue;
+    }
+    const View view = ViewAt(taken, camera);
     const SurfaceMap map = view.Cast();
     const auto i = static_cast<std::size_t>(camera);
-    instant.images[i] = Image(view, map, index, camera);
+    instant.images[i] = Image(view, map, taken, camera);
     instant.truth[i] = TruthOf(view, map);
   }
   return instant;
 }
 
 cv::Mat SceneSimulator::RenderCamera(std::int64_t index, Side camera) const {
-  const View view = ViewAt(index, camera);
-  return Image(view, view.Cast(), index, camera);
+  const std::int64_t taken = schedule_.TakenAt(index);
+  if (schedule_.IsAbsent(taken, camera)) {
+    return {};
+  }
+  const View view = ViewAt(taken, camera);
+  return Image(view, view.Cast(), taken, camera);
 }
 
 cv::Mat SceneSimulator::TrueFlow(std::int64_t index, Side camera) const {
-  return FlowBetween(ViewAt(index, camera), ViewAt(index + 1, camera));
+  return FlowBetween(ViewAt(schedule_.TakenAt(index), camera),
+                     ViewAt(schedule_.TakenAt(index + 1), camera));
 }
 
 absl::StatusOr<std::unique_ptr<Simulator>> Simulator::Create(const SimulationSpec& spec) {
   HOMING_RETURN_IF_ERROR(Validate(spec));
-  Route route(spec.length_m, BendOf(spec.seed));
+  Route route(spec.length_m + spec.extra_m, BendOf(spec.seed));
   Scene scene = spec.scene == "street" ? MakeStreetScene(route, spec.seed, spec.remove)
                                        : MakeLandmarkScene(route, spec.seed, spec.remove);
   return std::make_unique<SceneSimulator>(spec, std::move(route), std::move(scene));

@@ -23,8 +23,11 @@ struct NumberKey {
   double low;
   double high;
   const char* limit;
+  // The key can be left out, which is the same as 0.
+  bool is_optional = false;
+  bool is_whole = false;
 };
-constexpr std::array<NumberKey, 9> kNumberKeys = {{
+constexpr std::array<NumberKey, 17> kNumberKeys = {{
     {"length", &SimulationSpec::length_m, 1, 100000, "metres in [1, 100000]"},
     {"fps", &SimulationSpec::fps, 0.1, 240, "frames a second in [0.1, 240]"},
     {"speed", &SimulationSpec::speed_kmh, 0.1, 100, "km/h in [0.1, 100]"},
@@ -34,6 +37,15 @@ constexpr std::array<NumberKey, 9> kNumberKeys = {{
     {"remove", &SimulationSpec::remove, 0, 1, "a share in [0, 1]"},
     {"wobble", &SimulationSpec::wobble_m, 0, 2, "metres in [0, 2]"},
     {"stop", &SimulationSpec::stop_s, 0, 3600, "seconds in [0, 3600]"},
+    {"vary", &SimulationSpec::vary, 0, 1, "a share in [0, 1]", true},
+    {"extra", &SimulationSpec::extra_m, 0, 40, "metres in [0, 40]", true},
+    {"yaw", &SimulationSpec::yaw_deg, -180, 180, "degrees in [-180, 180]", true},
+    {"yaw_wobble", &SimulationSpec::yaw_wobble_deg, 0, 20, "degrees in [0, 20]", true},
+    {"rough", &SimulationSpec::rough_deg, 0, 5, "degrees in [0, 5]", true},
+    {"repeat", &SimulationSpec::repeat, 2, 1000, "0 or a whole number in [2, 1000]", true, true},
+    {"drop", &SimulationSpec::drop, 0, 0.95, "a share in [0, 0.95]", true},
+    {"drop_run", &SimulationSpec::drop_run, 1, 1000, "0 or a whole number in [1, 1000]", true,
+     true},
 }};
 
 absl::Status BadValue(const std::string& key, const std::string& value, const std::string& limit) {
@@ -42,7 +54,9 @@ absl::Status BadValue(const std::string& key, const std::string& value, const st
 }
 
 absl::Status CheckNumber(const NumberKey& key, double value) {
-  if (value >= key.low && value <= key.high) {
+  const bool is_in_range = value >= key.low && value <= key.high;
+  if ((is_in_range && (!key.is_whole || value == std::floor(value))) ||
+      (key.is_optional && value == 0)) {
     return absl::OkStatus();
   }
   return BadValue(key.name, absl::StrCat(value), key.limit);
@@ -90,7 +104,8 @@ absl::Status ParseKey(const std::string& key, const std::string& value, Simulati
   return absl::InvalidArgumentError(
       absl::StrCat("unknown simulation key \"", key, "\" with value \"", value,
                    "\"; the keys are seed, length, fps, speed, offset, light, noise, remove, "
-                   "wobble, stop, travel, drive"));
+                   "wobble, stop, vary, extra, yaw, yaw_wobble, rough, repeat, drop, drop_run, "
+                   "travel, drive"));
 }
 
 absl::Status CheckScene(const std::string& scene) {
@@ -137,8 +152,15 @@ std::uint64_t DriveSeed(const SimulationSpec& spec) {
     return spec.drive_seed;
   }
   std::uint64_t seed = Mix(spec.seed, spec.scene.size(), spec.travel_return ? 1 : 0);
-  for (const NumberKey& key : kNumberKeys) {
-    seed = Mix(seed, std::bit_cast<std::uint64_t>(spec.*key.field));
+  // A key that is left out changes nothing, so that keys can be added.
+  for (std::size_t i = 0; i < kNumberKeys.size(); ++i) {
+    const NumberKey& key = kNumberKeys[i];
+    const auto bits = std::bit_cast<std::uint64_t>(spec.*key.field);
+    if (!key.is_optional) {
+      seed = Mix(seed, bits);
+    } else if (spec.*key.field != 0) {
+      seed = Mix(seed, i, bits);
+    }
   }
   return seed;
 }

@@ -40,6 +40,26 @@ struct SimulationSpec {
   double wobble_m = 0;
   // Seconds of standing in the middle of the drive. [0, 3600].
   double stop_s = 0;
+  // How much the speed varies along the drive, smoothly: at 1 from 0.3 to 2 times `speed`. [0, 1].
+  double vary = 0;
+  // Metres driven on beyond the end of the route: the far one, on return the home one. [0, 40].
+  double extra_m = 0;
+  // Cameras turned about the vertical axis, both clockwise seen from above, degrees: at 90 the left
+  // one looks ahead and the right one behind. [-180, 180].
+  double yaw_deg = 0;
+  // Steering: the heading sways by up to this, degrees, and the robot goes where it heads. [0, 20].
+  double yaw_wobble_deg = 0;
+  // Rough ground: pitch and roll of each frame up to this, degrees, and its height up to as many
+  // centimetres. [0, 5].
+  double rough_deg = 0;
+  // Every so manieth frame repeats the one before it, without a pause in the drive; 0: none.
+  // [2, 1000].
+  double repeat = 0;
+  // Share of frames that are lost, both cameras', in twentieths. [0, 0.95].
+  double drop = 0;
+  // In every 5 times as many frames one of the cameras gives none for so many in a row; 0: none.
+  // [1, 1000].
+  double drop_run = 0;
   // True: from the far end home, heading the other way.
   bool travel_return = false;
   // Seed of noise and light; 0: made from the other keys, so that two drives differ.
@@ -58,7 +78,7 @@ struct SimulatedInstant {
   double time_s = 0;
   // Along the outbound route from home.
   double route_m = 0;
-  // Robot's cameras, indexed by Side. CV_8UC1.
+  // Robot's cameras, indexed by Side. CV_8UC1; empty: the camera gave none.
   std::array<cv::Mat, 2> images;
   std::array<CameraTruth, 2> truth;
 };
@@ -73,9 +93,10 @@ class Simulator {
   virtual std::int64_t frame_count() const = 0;
   // Both cameras at frame `index`. REQUIRES: 0 <= index < frame_count().
   virtual SimulatedInstant Render(std::int64_t index) const = 0;
-  // One camera only.
+  // One camera only; empty: it gave no image.
   virtual cv::Mat RenderCamera(std::int64_t index, Side camera) const = 0;
   virtual double RouteMetres(std::int64_t index) const = 0;
+  virtual double TimeS(std::int64_t index) const = 0;
   // True flow from frame `index` to the next at every pixel of one camera, CV_32FC2 (NaN where
   // nothing is seen or the point is hidden in the next frame).
   virtual cv::Mat TrueFlow(std::int64_t index, Side camera) const = 0;

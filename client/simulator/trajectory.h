@@ -6,6 +6,7 @@
 
 #include "client/simulator/route.h"
 #include "client/simulator/simulator.h"
+#include "client/simulator/speed_profile.h"
 
 namespace homing::client {
 
@@ -20,14 +21,28 @@ class Trajectory {
   double RouteMetres(std::int64_t frame) const;
   // On the route, with offset and wobble; heading as if outbound.
   Pose At(std::int64_t frame, const Route& route) const;
+  // Of the ground under the robot at a frame.
+  struct Jolt {
+    // Radians, about the robot's long axis and about the axis to its left.
+    double roll = 0;
+    double pitch = 0;
+    double height_m = 0;
+  };
+  Jolt JoltAt(std::int64_t frame) const;
 
  private:
   double DrivenMetres(double time_s) const;
+  void Steer(double route_m, Pose& pose) const;
 
   SimulationSpec spec_;
-  double speed_m_s_;
+  std::uint64_t drive_seed_;
+  double length_m_;
+  SpeedProfile speed_;
   double sway_phase_;
   double yaw_phase_;
+  // Of the steering.
+  double long_phase_;
+  double short_phase_;
 };
 
 }  // namespace homing::client

@@ -24,8 +24,9 @@ std::optional<cv::Vec2d> PixelIn(const View& to, const Vector3& point, bool is_f
     return std::nullopt;
   }
   const Ray ray{point[0] / point[2], point[1] / point[2]};
-  const cv::Vec2d pixel(ray.x * Simulator::kFocal + Simulator::kCenterX,
-                        ray.y * Simulator::kFocal + Simulator::kCenterY);
+  const Ray seen = to.rays().Untilted(ray);
+  const cv::Vec2d pixel(seen.x * Simulator::kFocal + Simulator::kCenterX,
+                        seen.y * Simulator::kFocal + Simulator::kCenterY);
   const bool inside = pixel[0] >= 0 && pixel[0] <= Simulator::kWidth - 1 && pixel[1] >= 0 &&
                       pixel[1] <= Simulator::kHeight - 1;
   const double depth = is_far ? kFarAway : point[2];
@@ -48,7 +49,7 @@ cv::Mat FlowBetween(const View& from, const View& to) {
       if (map.surfaces[i] == kSky) {
         continue;
       }
-      const Vector3 point = Moved(from, to, RayAt(x, y), map.depths[i]);
+      const Vector3 point = Moved(from, to, from.rays().At(x, y), map.depths[i]);
       if (const auto pixel = PixelIn(to, point, map.depths[i] >= kFarAway)) {
         flow.at<cv::Vec2f>(y, x) =
             cv::Vec2f(static_cast<float>((*pixel)[0] - x), static_cast<float>((*pixel)[1] - y));

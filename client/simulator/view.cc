@@ -23,19 +23,40 @@ struct PixelBounds {
   PixelRange rows;
   bool empty() const { return columns.low >= columns.high || rows.low >= rows.high; }
 };
-PixelBounds BoundsInImage(const ViewedShape& shape) {
-  const RayBounds bounds = std::visit([](const auto& s) { return s.Bounds(); }, shape);
+// The rays of the tilted image that hold these of the upright one.
+RayBounds Untilted(const RayBounds& bounds, const PixelRays& rays) {
+  if (!rays.is_tilted() || bounds.low.x > bounds.high.x || bounds.low.y > bounds.high.y) {
+    return bounds;
+  }
+  // Beyond any image, and still before the camera when turned.
+  const auto bound = [](double v) { return std::clamp(v, -2.0, 2.0); };
+  RayBounds result{{kFarAway, kFarAway}, {-kFarAway, -kFarAway}};
+  for (const double x : {bounds.low.x, bounds.high.x}) {
+    for (const double y : {bounds.low.y, bounds.high.y}) {
+      const Ray ray = rays.Untilted(Ray{bound(x), bound(y)});
+      result.low.x = std::min(result.low.x, ray.x);
+      result.low.y = std::min(result.low.y, ray.y);
+      result.high.x = std::max(result.high.x, ray.x);
+      result.high.y = std::max(result.high.y, ray.y);
+    }
+  }
+  return result;
+}
+
+PixelBounds BoundsInImage(const ViewedShape& shape, const PixelRays& rays) {
+  const RayBounds bounds =
+      Untilted(std::visit([](const auto& s) { return s.Bounds(); }, shape), rays);
   return {PixelsBetween(bounds.low.x, bounds.high.x, Simulator::kCenterX, Simulator::kWidth),
           PixelsBetween(bounds.low.y, bounds.high.y, Simulator::kCenterY, Simulator::kHeight)};
 }
 
 template <typename ShapeSeen>
-void CastShape(const ShapeSeen& shape, const PixelBounds& bounds, std::int16_t index,
-               SurfaceMap& map) {
+void CastShape(const ShapeSeen& shape, const PixelBounds& bounds, const PixelRays& rays,
+               std::int16_t index, SurfaceMap& map) {
   for (int y = bounds.rows.low; y < bounds.rows.high; ++y) {
     const auto row = static_cast<std::size_t>(y) * Simulator::kWidth;
     for (int x = bounds.columns.low; x < bounds.columns.high; ++x) {
-      const double depth = shape.Depth(RayAt(x, y));
+      const double depth = shape.Depth(rays.At(x, y));
       const std::size_t pixel = row + static_cast<std::size_t>(x);
       if (depth > kNearest && depth < map.depths[pixel]) {
         map.depths[pixel] = depth;
@@ -52,8 +73,18 @@ double DepthOf(const ViewedSurface& surface, const Ray& ray) {
   return depth > kNearest ? depth : kNothing;
 }
 
-View::View(const Scene& scene, double route_m, const CameraPose& camera)
-    : camera_(camera), sky_grey_(scene.sky_grey()) {
+PixelRays::PixelRays(const Tilt& tilt) : is_tilted_(tilt.pitch != 0 || tilt.roll != 0) {
+  const double cp = std::cos(tilt.pitch);
+  const double sp = std::sin(tilt.pitch);
+  const double cr = std::cos(tilt.roll);
+  const double sr = std::sin(tilt.roll);
+  const cv::Matx33d pitch(1, 0, 0, 0, cp, -sp, 0, sp, cp);
+  const cv::Matx33d roll(cr, -sr, 0, sr, cr, 0, 0, 0, 1);
+  tilt_ = pitch * roll;
+}
+
+View::View(const Scene& scene, double route_m, const CameraPose& camera, const Tilt& tilt)
+    : camera_(camera), rays_(tilt), sky_grey_(scene.sky_grey()) {
   for (const Surface& surface : scene.Near(route_m)) {
     Add(surface);
   }
@@ -63,7 +94,7 @@ View::View(const Scene& scene, double route_m, const CameraPose& camera)
 
 void View::Add(const Surface& surface) {
   ViewedShape shape = Seen(surface.shape, camera_);
-  if (!BoundsInImage(shape).empty()) {
+  if (!BoundsInImage(shape, rays_).empty()) {
     surfaces_.push_back({shape, &surface.material, surface.landmark});
   }
 }
@@ -72,9 +103,11 @@ SurfaceMap View::Cast() const {
   SurfaceMap map{std::vector<double>(kPixelCount, kNothing),
                  std::vector<std::int16_t>(kPixelCount, kSky)};
   for (std::size_t i = 0; i < surfaces_.size(); ++i) {
-    const PixelBounds bounds = BoundsInImage(surfaces_[i].shape);
+    const PixelBounds bounds = BoundsInImage(surfaces_[i].shape, rays_);
     std::visit(
-        [&](const auto& shape) { CastShape(shape, bounds, static_cast<std::int16_t>(i), map); },
+        [&](const auto& shape) {
+          CastShape(shape, bounds, rays_, static_cast<std::int16_t>(i), map);
+        },
         surfaces_[i].shape);
   }
   return map;

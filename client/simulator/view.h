@@ -24,6 +24,35 @@ inline Ray RayAt(double x, double y) {
   return {(x - Simulator::kCenterX) * kPerPixel, (y - Simulator::kCenterY) * kPerPixel};
 }
 
+// How a camera pitches and rolls, radians: about its X axis, then about its Z axis.
+struct Tilt {
+  double pitch = 0;
+  double roll = 0;
+};
+
+// Rays of a tilted camera in the coordinates of the upright one: surfaces are seen in these.
+class PixelRays {
+ public:
+  explicit PixelRays(const Tilt& tilt);
+
+  Ray At(double x, double y) const {
+    const Ray ray = RayAt(x, y);
+    return is_tilted_ ? Turned(tilt_, ray) : ray;
+  }
+  // The ray's pixel if the camera were upright is that of this ray.
+  Ray Untilted(const Ray& ray) const { return is_tilted_ ? Turned(tilt_.t(), ray) : ray; }
+  bool is_tilted() const { return is_tilted_; }
+
+ private:
+  static Ray Turned(const cv::Matx33d& turn, const Ray& ray) {
+    const Vector3 turned = turn * Vector3(ray.x, ray.y, 1);
+    return {turned[0] / turned[2], turned[1] / turned[2]};
+  }
+
+  bool is_tilted_;
+  cv::Matx33d tilt_;
+};
+
 inline constexpr std::size_t kPixelCount =
     static_cast<std::size_t>(Simulator::kWidth) * static_cast<std::size_t>(Simulator::kHeight);
 // Index of no surface: the sky.
@@ -38,9 +67,11 @@ struct SurfaceMap {
 // Refers to the scene, which must outlive it.
 class View {
  public:
-  View(const Scene& scene, double route_m, const CameraPose& camera);
+  View(const Scene& scene, double route_m, const CameraPose& camera, const Tilt& tilt = {});
 
+  // Upright.
   const CameraPose& camera() const { return camera_; }
+  const PixelRays& rays() const { return rays_; }
   const std::vector<ViewedSurface>& surfaces() const { return surfaces_; }
   double sky_grey() const { return sky_grey_; }
 
@@ -53,6 +84,7 @@ class View {
   void Add(const Surface& surface);
 
   CameraPose camera_;
+  PixelRays rays_;
   double sky_grey_;
   std::vector<ViewedSurface> surfaces_;
 };

@@ -1,17 +1,22 @@
 #include "tests/accuracy/drive.h"
 
+#include <algorithm>
 #include <cstdlib>
-#include <filesystem>
-#include <fstream>
 #include <iostream>
-#include <iterator>
+#include <memory>
 #include <opencv2/imgproc.hpp>
 
+#include "absl/strings/str_cat.h"
 #include "client/frame_source.h"
+#include "client/simulator/frame_schedule.h"
+#include "client/simulator/simulation_spec.h"
 #include "homing/image/frame.h"
+#include "tests/accuracy/drive_cache.h"
 
 namespace homing::accuracy {
 namespace {
+
+using Images = std::array<cv::Mat, 2>;
 
 Picture PictureOf(const cv::Mat& gray) {
   cv::Mat small;
@@ -19,12 +24,15 @@ Picture PictureOf(const cv::Mat& gray) {
   return {small.begin<std::uint8_t>(), small.end<std::uint8_t>()};
 }
 
-// Turns frames into instants, one less.
+// The frame that the flow of `frame` was tracked from.
+std::int64_t ReferenceOf(const ObservedFlow& /*flow*/, std::int64_t frame) { return frame - 1; }
+
+// Frames in, instants out.
 class Maker {
  public:
-  void Add(const std::array<cv::Mat, 2>& images, double place) {
+  // An empty image: that camera is absent.
+  void Add(const Images& images, double place) {
     Observation observation;
-    Instant instant;
     for (std::size_t side = 0; side < images.size(); ++side) {
       const cv::Mat& image = images[side];
       if (image.empty()) continue;
@@ -33,78 +41,114 @@ class Maker {
           image.cols,
           image.rows,
           {reinterpret_cast<const char*>(image.data), static_cast<std::size_t>(image.total())}};
-      instant.pictures[side] = PictureOf(image);
     }
     auto flow = flow_.Compute(observation);
     if (!flow.ok()) Fail(std::string(flow.status().message()));
+    Instant instant;
+    instant.frame = static_cast<std::int64_t>(drive_.size());
     instant.flow = *std::move(flow);
-    instant.place = 0.5 * (place + last_place_);
-    last_place_ = place;
-    if (instant.flow.fields[0] || instant.flow.fields[1]) drive_.push_back(std::move(instant));
+    for (std::size_t side = 0; side < images.size(); ++side) {
+      if (instant.flow.fields[side]) instant.pictures[side] = PictureOf(images[side]);
+    }
+    instant.reference = std::max<std::int64_t>(
+        0, instant.MakesStep() ? ReferenceOf(instant.flow, instant.frame) : instant.frame - 1);
+    places_.push_back(place);
+    drive_.push_back(std::move(instant));
   }
 
-  Drive Take() { return std::move(drive_); }
+  Drive Take();
 
  private:
   ObservationFlow flow_{FlowOptions()};
-  double last_place_ = 0;
+  std::vector<double> places_;
   Drive drive_;
 };
 
-template <typename T>
-void Put(std::ostream& file, const T* values, std::size_t count) {
-  file.write(reinterpret_cast<const char*>(values),
-             static_cast<std::streamsize>(count * sizeof(T)));
-}
-
-template <typename T>
-void Get(std::istream& file, T* values, std::size_t count) {
-  file.read(reinterpret_cast<char*>(values), static_cast<std::streamsize>(count * sizeof(T)));
-}
-
-void Write(const Drive& drive, const std::string& path) {
-  const std::string part = path + ".part";
-  std::ofstream file(part, std::ios::binary);
-  const std::uint64_t size = drive.size();
-  Put(file, &size, 1);
-  for (const Instant& instant : drive) {
-    Put(file, &instant.place, 1);
-    for (std::size_t side = 0; side < 2; ++side) {
-      const auto& field = instant.flow.fields[side];
-      const std::array<std::int32_t, 3> head{
-          field ? field->width : 0, field ? field->height : 0,
-          field ? static_cast<std::int32_t>(field->vectors.size()) : -1};
-      Put(file, head.data(), head.size());
-      if (!field) continue;
-      Put(file, field->vectors.data(), field->vectors.size());
-      Put(file, instant.pictures[side].data(), instant.pictures[side].size());
-    }
-  }
-  file.close();
-  if (!file) Fail("cannot write " + part);
-  std::filesystem::rename(part, path);
-}
-
-Drive Read(std::istream& file) {
-  std::uint64_t size = 0;
-  Get(file, &size, 1);
-  Drive drive(size);
+void SetPlaces(const std::vector<double>& places, Drive& drive) {
   for (Instant& instant : drive) {
-    Get(file, &instant.place, 1);
-    for (std::size_t side = 0; side < 2; ++side) {
-      std::array<std::int32_t, 3> head{};
-      Get(file, head.data(), head.size());
-      if (head[2] < 0) continue;
-      FlowField field{.width = head[0], .height = head[1], .vectors = {}};
-      field.vectors.resize(static_cast<std::size_t>(head[2]));
-      Get(file, field.vectors.data(), field.vectors.size());
-      instant.flow.fields[side] = std::move(field);
-      instant.pictures[side].resize(std::size_t{kPictureWidth} * kPictureHeight);
-      Get(file, instant.pictures[side].data(), instant.pictures[side].size());
+    instant.place = 0.5 * (places.at(static_cast<std::size_t>(instant.reference)) +
+                           places.at(static_cast<std::size_t>(instant.frame)));
+  }
+}
+
+Drive Maker::Take() {
+  SetPlaces(places_, drive_);
+  return std::move(drive_);
+}
+
+cv::Mat ReadImage(const std::string& file, const cv::Size& size) {
+  auto source = client::OpenFrameSource(file, Side::kLeft);
+  if (!source.ok()) Fail(std::string(source.status().message()));
+  auto frame = (*source)->Next();
+  if (!frame.ok() || !*frame) Fail("cannot read " + file);
+  auto image = DecodeGray((*frame)->view());
+  if (!image.ok()) Fail(file + ": " + std::string(image.status().message()));
+  if (size.empty() || image->size() == size) return image->clone();
+  cv::Mat resized;
+  cv::resize(*image, resized, size, 0, 0, cv::INTER_AREA);
+  return resized;
+}
+
+client::SimulationSpec Parsed(const std::string& text) {
+  const auto spec = client::ParseSimulationSpec(text);
+  if (!spec.ok()) Fail(std::string(spec.status().message()));
+  return *spec;
+}
+
+// The frames that the cameras take, all of which arrive.
+std::unique_ptr<client::Simulator> CamerasOf(client::SimulationSpec spec) {
+  const std::uint64_t drive_seed = DriveSeed(spec);
+  spec.repeat = 0;
+  spec.drop = 0;
+  spec.drop_run = 0;
+  if (DriveSeed(spec) != drive_seed) Fail("lost and repeated frames need the key drive");
+  auto simulator = client::Simulator::Create(spec);
+  if (!simulator.ok()) Fail(std::string(simulator.status().message()));
+  return *std::move(simulator);
+}
+
+// What arrives of the frames that are taken.
+class Arrivals {
+ public:
+  Arrivals(const client::SimulationSpec& spec, std::int64_t taken) : schedule_(spec, taken) {}
+
+  // REQUIRES: frames are given in order.
+  void Take(std::int64_t taken, const Images& images, double place) {
+    Images given = images;
+    for (const Side camera : {Side::kLeft, Side::kRight}) {
+      if (schedule_.IsAbsent(taken, camera)) given[static_cast<std::size_t>(camera)] = cv::Mat();
+    }
+    while (next_ < schedule_.frame_count() && schedule_.TakenAt(next_) <= taken) {
+      if (schedule_.TakenAt(next_++) == taken) maker_.Add(given, place);
     }
   }
-  if (!file) Fail("a cached drive is damaged; delete the cache");
-  return drive;
+
+  Drive Finish() { return maker_.Take(); }
+
+ private:
+  client::FrameSchedule schedule_;
+  std::int64_t next_ = 0;
+  Maker maker_;
+};
+
+// In the order of `specs`.
+std::vector<Drive> Simulate(const std::vector<SimulatedDriveSpec>& specs) {
+  const SimulatedDriveSpec& first = specs.front();
+  const auto cameras = CamerasOf(Parsed(first.spec));
+  const std::int64_t frames = cameras->frame_count();
+  std::vector<Arrivals> arrivals;
+  for (const SimulatedDriveSpec& spec : specs) arrivals.emplace_back(Parsed(spec.spec), frames);
+  const double end = cameras->RouteMetres(frames - 1);
+  for (std::int64_t i = 0; i < frames; ++i) {
+    const double place = cameras->RouteMetres(i);
+    if (first.tail_m > 0 && std::abs(end - place) > first.tail_m) continue;
+    Images images = {cameras->RenderCamera(i, Side::kLeft), cv::Mat()};
+    if (first.both_cameras) images[1] = cameras->RenderCamera(i, Side::kRight);
+    for (Arrivals& each : arrivals) each.Take(i, images, place);
+  }
+  std::vector<Drive> drives;
+  for (Arrivals& each : arrivals) drives.push_back(each.Finish());
+  return drives;
 }
 
 }  // namespace
@@ -114,36 +158,53 @@ void Fail(const std::string& reason) {
   std::exit(1);
 }
 
-Drive DriveOfFiles(const std::vector<std::string>& files, const std::vector<double>& places) {
-  Maker maker;
-  for (std::size_t i = 0; i < files.size(); ++i) {
-    auto source = client::OpenFrameSource(files[i], Side::kLeft);
-    if (!source.ok()) Fail(std::string(source.status().message()));
-    auto frame = (*source)->Next();
-    if (!frame.ok() || !*frame) Fail("cannot read " + files[i]);
-    auto image = DecodeGray((*frame)->view());
-    if (!image.ok()) Fail(files[i] + ": " + std::string(image.status().message()));
-    maker.Add({*image, cv::Mat()}, places[i]);
+std::vector<const Instant*> StepsOf(const Drive& drive) {
+  std::vector<const Instant*> steps;
+  for (const Instant& instant : drive) {
+    if (instant.MakesStep()) steps.push_back(&instant);
   }
-  return maker.Take();
+  return steps;
 }
 
-Drive SimulatedDrive(const std::string& spec, const std::string& cache) {
-  const std::string path = cache.empty() ? "" : cache + "/" + spec.substr(4) + ".drive";
-  if (std::ifstream file(path, std::ios::binary); !path.empty() && file) return Read(file);
-  const auto parsed = client::ParseSimulationSpec(spec);
-  if (!parsed.ok()) Fail(std::string(parsed.status().message()));
-  const auto simulator = client::Simulator::Create(*parsed);
-  if (!simulator.ok()) Fail(std::string(simulator.status().message()));
+double StepLength(const Drive& drive) {
+  const auto steps = StepsOf(drive);
+  return std::abs(steps.back()->place - steps.front()->place) /
+         static_cast<double>(steps.size() - 1);
+}
+
+cv::Size ImageSizeOf(const std::string& file) { return ReadImage(file, {}).size(); }
+
+Drive DriveOfFiles(const ImageFiles& images, const std::string& cache) {
+  const DriveCache kept(cache);
+  if (auto drive = kept.Read(images.name)) {
+    SetPlaces(images.places, *drive);
+    return *std::move(drive);
+  }
   Maker maker;
-  for (std::int64_t i = 0; i < (*simulator)->frame_count(); ++i) {
-    maker.Add(
-        {(*simulator)->RenderCamera(i, Side::kLeft), (*simulator)->RenderCamera(i, Side::kRight)},
-        (*simulator)->RouteMetres(i));
+  for (std::size_t i = 0; i < images.files.size(); ++i) {
+    maker.Add({ReadImage(images.files[i], images.size), cv::Mat()}, images.places[i]);
   }
   Drive drive = maker.Take();
-  if (!path.empty()) Write(drive, path);
+  kept.Write(images.name, drive);
   return drive;
+}
+
+std::string SimulatedDriveSpec::Name() const {
+  return absl::StrCat(spec.substr(4), both_cameras ? "" : " left",
+                      tail_m > 0 ? absl::StrCat(" last ", tail_m) : "");
+}
+
+std::vector<Drive> SimulatedDrives(const std::vector<SimulatedDriveSpec>& specs,
+                                   const std::string& cache) {
+  const DriveCache kept(cache);
+  std::vector<Drive> drives;
+  for (const SimulatedDriveSpec& spec : specs) {
+    if (auto drive = kept.Read(spec.Name())) drives.push_back(*std::move(drive));
+  }
+  if (drives.size() == specs.size()) return drives;
+  drives = Simulate(specs);
+  for (std::size_t i = 0; i < specs.size(); ++i) kept.Write(specs[i].Name(), drives[i]);
+  return drives;
 }
 
 }  // namespace homing::accuracy

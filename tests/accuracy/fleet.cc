@@ -10,7 +10,7 @@
 #include "client/bench/projected_drive.h"
 #include "client/simulator/seeded_random.h"
 #include "proto/wire/enum_conversion.h"
-#include "tests/accuracy/sequences.h"
+#include "tests/accuracy/parallel.h"
 #include "tests/accuracy/server_runs.h"
 
 namespace homing::accuracy {

@@ -18,20 +18,36 @@ namespace {
 using client::ProjectedDrive;
 using client::ProjectedWorld;
 
-Observations ObservationsOf(const Drive& drive) {
-  return {drive.size(), [&drive](std::size_t i) { return drive[i].flow; }};
+Observations ObservationsOf(std::vector<const Instant*> steps) {
+  const std::size_t count = steps.size();
+  return {count, [steps = std::move(steps)](std::size_t i) { return steps[i]->flow; }};
 }
 
-Observations QueryOf(const Run& run) {
-  return {run.query.size(), [&run](std::size_t i) { return run.query[i]->flow; }};
-}
+Observations ObservationsOf(const Drive& drive) { return ObservationsOf(StepsOf(drive)); }
 
 void Check(const absl::Status& status) {
   if (!status.ok()) Fail(status.ToString());
 }
 
-double PlaceOf(const Run& run, int map, std::int64_t step) {
-  return (*run.maps[static_cast<std::size_t>(map)])[static_cast<std::size_t>(step)].place;
+// Places of the steps of each map.
+using StepPlaces = std::vector<std::vector<double>>;
+
+StepPlaces PlacesOf(const Run& run) {
+  StepPlaces places;
+  for (const auto& map : run.maps) {
+    places.emplace_back();
+    for (const Instant* step : StepsOf(*map)) places.back().push_back(step->place);
+  }
+  return places;
+}
+
+double PlaceOf(const StepPlaces& places, int map, std::int64_t step) {
+  return places.at(static_cast<std::size_t>(map)).at(static_cast<std::size_t>(step));
+}
+
+double OnRouteOf(const Position& position) { return 1 - position.unknown_probability; }
+double OnRouteOf(const v1::LocalizeResponse& response) {
+  return 1 - response.unknown_probability();
 }
 
 JourneyMap MapOf(const Observations& observations) {
@@ -76,6 +92,24 @@ double MedianMicroseconds(const JourneyMap& map, const LocalizerOptions& options
   return times[times.size() / 2];
 }
 
+Answer AnswerOf(const StepPlaces& places, const Position& position) {
+  Answer answer{
+      .score = position.probability, .outcome = position.outcome, .on_route = OnRouteOf(position)};
+  if (position.step) {
+    answer.map = position.journey;
+    answer.place = PlaceOf(places, position.journey, *position.step);
+  }
+  return answer;
+}
+
+Answer AnswerOf(const StepPlaces& places, const std::vector<Match>& matches) {
+  if (matches.empty()) return {};
+  const Match& best = matches.front();
+  return {.map = best.journey,
+          .place = PlaceOf(places, best.journey, best.step),
+          .score = best.similarity.p_t};
+}
+
 void LocalizeDirectly(int number, Run& run) {
   std::vector<JourneyMap> maps;
   std::vector<std::string> names;
@@ -86,26 +120,18 @@ void LocalizeDirectly(int number, Run& run) {
   std::vector<JourneyRef> journeys;
   for (std::size_t i = 0; i < maps.size(); ++i) journeys.push_back({&names[i], &maps[i]});
   Localizer localizer(OptionsOf(run));
-  const Observations query = QueryOf(run);
-  for (std::size_t i = 0; i < run.query.size(); ++i) {
+  const Observations query = ObservationsOf(run.QuerySteps());
+  const StepPlaces places = PlacesOf(run);
+  Answers homing;
+  Answers single_frame;
+  for (std::size_t i = 0; i < query.count; ++i) {
     const auto result = localizer.Localize(query.At(i), journeys);
     Check(result.status());
-    const Position& position = result->position;
-    Answer answer{.score = position.probability, .outcome = position.outcome};
-    if (position.step) {
-      answer.map = position.journey;
-      answer.place = PlaceOf(run, position.journey, *position.step);
-    }
-    run.homing.push_back(answer);
-    Answer single;
-    if (!result->matches.empty()) {
-      const Match& best = result->matches.front();
-      single.map = best.journey;
-      single.place = PlaceOf(run, best.journey, best.step);
-      single.score = best.similarity.p_t;
-    }
-    run.single_frame.push_back(single);
+    homing.push_back(AnswerOf(places, result->position));
+    single_frame.push_back(AnswerOf(places, result->matches));
   }
+  run.homing = run.ByInstant(homing);
+  run.single_frame = run.ByInstant(single_frame);
 }
 
 void LocalizeOverServer(const client::Connection& server, int number, Run& run) {
@@ -124,22 +150,29 @@ void LocalizeOverServer(const client::Connection& server, int number, Run& run) 
   options.config.set_tolerance_steps(run.tolerance_steps);
   options.config.set_threshold(0);
   options.config.set_max_matches(1);
-  LocalizeOnServer(server, options, QueryOf(run), [&](const v1::LocalizeResponse& response) {
-    Answer answer{.score = response.probability(),
-                  .outcome = static_cast<Outcome>(response.outcome())};
-    if (response.has_step()) {
-      answer.map = index(response.journey());
-      answer.place = PlaceOf(run, answer.map, response.step());
-    }
-    run.homing.push_back(answer);
-    Answer single;
-    if (response.matches_size() > 0) {
-      single.map = index(response.matches(0).journey());
-      single.place = PlaceOf(run, single.map, response.matches(0).step());
-      single.score = response.matches(0).p_t();
-    }
-    run.single_frame.push_back(single);
-  });
+  const StepPlaces places = PlacesOf(run);
+  Answers homing;
+  Answers single_frame;
+  LocalizeOnServer(server, options, ObservationsOf(run.QuerySteps()),
+                   [&](const v1::LocalizeResponse& response) {
+                     Answer answer{.score = response.probability(),
+                                   .outcome = static_cast<Outcome>(response.outcome()),
+                                   .on_route = OnRouteOf(response)};
+                     if (response.has_step()) {
+                       answer.map = index(response.journey());
+                       answer.place = PlaceOf(places, answer.map, response.step());
+                     }
+                     homing.push_back(answer);
+                     Answer single;
+                     if (response.matches_size() > 0) {
+                       single.map = index(response.matches(0).journey());
+                       single.place = PlaceOf(places, single.map, response.matches(0).step());
+                       single.score = response.matches(0).p_t();
+                     }
+                     single_frame.push_back(single);
+                   });
+  run.homing = run.ByInstant(homing);
+  run.single_frame = run.ByInstant(single_frame);
   for (const std::string& name : names) DeleteOnServer(server, name);
 }
 
@@ -154,7 +187,8 @@ void LocalizeRun(const client::Connection* server, int number, Run& run) {
 }
 
 double MicrosecondsAnObservation(const Run& run) {
-  return MedianMicroseconds(MapOf(ObservationsOf(*run.maps[0])), OptionsOf(run), QueryOf(run));
+  return MedianMicroseconds(MapOf(ObservationsOf(*run.maps[0])), OptionsOf(run),
+                            ObservationsOf(run.QuerySteps()));
 }
 
 double MicrosecondsAtSteps(std::int64_t steps) {

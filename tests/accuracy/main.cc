@@ -9,11 +9,13 @@
 #include "homing/base/status_macros.h"
 #include "tests/accuracy/fleet.h"
 #include "tests/accuracy/homing_runs.h"
+#include "tests/accuracy/parallel.h"
 #include "tests/accuracy/picture_peers.h"
 #include "tests/accuracy/pictures.h"
+#include "tests/accuracy/real_runs.h"
 #include "tests/accuracy/report.h"
 #include "tests/accuracy/scores.h"
-#include "tests/accuracy/sequences.h"
+#include "tests/accuracy/simulated_runs.h"
 
 namespace homing::accuracy {
 namespace {
@@ -25,17 +27,14 @@ struct Flags {
   std::string report;
   std::string details;
   std::string pictures;
-  int seeds = 20;
+  std::string sets;
+  Seeds seeds{101, 20};
   int fleet = 0;
   bool peers = true;
 };
 
 // Slopes tried for the pictures' filter; the best over the real sequences is taken.
 constexpr std::array<double, 6> kSlopes = {0.1, 0.2, 0.4, 0.8, 1.6, 3.2};
-
-bool IsReal(const Run& run) {
-  return run.set.find(' ') == std::string::npos || run.set == "laps dim";
-}
 
 void RunPeers(std::vector<Run>& runs) {
   std::vector<Differences> differences(runs.size());
@@ -47,13 +46,13 @@ void RunPeers(std::vector<Run>& runs) {
   });
   const auto filter = [&](double slope, bool only_real) {
     InParallel(runs.size(), [&](std::size_t i) {
-      if (runs[i].foreign || (only_real && !IsReal(runs[i]))) return;
+      if (runs[i].foreign || (only_real && !runs[i].real)) return;
       runs[i].pictures = PictureFilter(runs[i], differences[i], slope);
     });
   };
   std::vector<const Run*> real;
   for (const Run& run : runs) {
-    if (IsReal(run)) real.push_back(&run);
+    if (run.real && !run.foreign) real.push_back(&run);
   }
   double best_recall = -1;
   double best_slope = kSlopes[0];
@@ -81,7 +80,7 @@ std::optional<client::Connection> Connect(const std::string& address) {
 // Of the first run of each set.
 void Measure(Measurements& all) {
   for (const Run& run : all.runs) {
-    if (!all.bytes.empty() && all.bytes.back().first == run.set) continue;
+    if (run.foreign || (!all.bytes.empty() && all.bytes.back().first == run.set)) continue;
     all.bytes.emplace_back(run.set, BytesACameraStep(run));
     all.microseconds.emplace_back(run.set, MicrosecondsAnObservation(run));
   }
@@ -93,14 +92,14 @@ void Measure(Measurements& all) {
 // One line an answer of Homing.
 void WriteDetails(const std::string& path, const std::vector<Run>& runs) {
   std::ofstream file(path);
-  file << "set,run,instant,true,believed,probability,outcome,judged,right\n";
+  file << "set,run,frame,true,believed,probability,on_route,outcome,judged,right\n";
   for (std::size_t r = 0; r < runs.size(); ++r) {
     for (std::size_t i = 0; i < runs[r].homing.size(); ++i) {
       const Answer& answer = runs[r].homing[i];
-      file << absl::StrFormat("%s,%d,%d,%.3f,%.3f,%.4f,%d,%d,%d\n", runs[r].set, r, i,
-                              runs[r].query[i]->place, answer.place, answer.score,
-                              static_cast<int>(answer.outcome), runs[r].Judged(i),
-                              runs[r].Right(answer, i));
+      file << absl::StrFormat("%s,%d,%d,%.3f,%.3f,%.4f,%.4f,%d,%d,%d\n", runs[r].set, r,
+                              runs[r].query[i]->frame, runs[r].query[i]->place, answer.place,
+                              answer.score, answer.on_route, static_cast<int>(answer.outcome),
+                              runs[r].Judged(i), runs[r].Right(answer, i));
     }
   }
 }
@@ -138,7 +137,8 @@ absl::Status DrawPictures(const std::string& folder, const std::vector<Run>& run
   for (const bool real : {true, false}) {
     std::vector<const Run*> group;
     for (const Run& run : runs) {
-      if (IsReal(run) == real && !run.set.ends_with("kidnapped")) group.push_back(&run);
+      if (run.real == real && !run.foreign && !run.set.ends_with("kidnapped"))
+        group.push_back(&run);
     }
     if (!group.empty()) {
       calibrations.push_back({real ? "real sequences" : "simulated routes",
@@ -150,18 +150,17 @@ absl::Status DrawPictures(const std::string& folder, const std::vector<Run>& run
 
 int Main(const Flags& flags) {
   Measurements measurements;
-  if (!flags.data.empty()) measurements.runs = RealRuns(flags.data);
-  if (flags.seeds > 0) {
-    for (Run& run : SimulatedRuns(flags.seeds, flags.cache)) {
-      measurements.runs.push_back(std::move(run));
-    }
-  }
+  RunPlan plan;
+  if (!flags.data.empty()) PlanRealRuns(flags.data, flags.cache, plan);
+  if (flags.seeds.count > 0) PlanSimulatedRuns(flags.seeds, flags.cache, plan);
+  measurements.runs = plan.Make(SetFilter(flags.sets));
   std::cerr << measurements.runs.size() << " runs\n";
   const std::optional<client::Connection> server = Connect(flags.server);
   InParallel(measurements.runs.size(), [&](std::size_t i) {
     LocalizeRun(server ? &*server : nullptr, static_cast<int>(i), measurements.runs[i]);
   });
   if (server && flags.fleet > 0) measurements.fleet = RunFleet(*server, {.journeys = flags.fleet});
+  measurements.has_peers = flags.peers;
   if (flags.peers) RunPeers(measurements.runs);
   if (flags.peers) Measure(measurements);
   if (!flags.details.empty()) WriteDetails(flags.details, measurements.runs);
@@ -190,11 +189,14 @@ int main(int argc, char** argv) {
   homing::accuracy::Flags flags;
   app.add_option("--server", flags.server, "Through this server [else by the library alone]");
   app.add_option("--data", flags.data, "Folder of real sequences [none]");
-  app.add_option("--cache", flags.cache, "Folder that keeps simulated drives [none]");
+  app.add_option("--cache", flags.cache, "Folder that keeps the flow of all drives [none]");
   app.add_option("--report", flags.report, "Markdown file [standard output]");
   app.add_option("--details", flags.details, "CSV file of all answers [none]");
   app.add_option("--pictures", flags.pictures, "Folder for pictures [none]");
-  app.add_option("--seeds", flags.seeds, "Simulated worlds a scene");
+  app.add_option("--sets", flags.sets,
+                 "Words between commas: real, simulated, foreign, a set or how one begins [all]");
+  app.add_option("--seeds", flags.seeds.count, "Simulated worlds a scene");
+  app.add_option("--first-seed", flags.seeds.first, "The first of them");
   app.add_option("--fleet", flags.fleet, "Journeys of a fleet, through the server [none]");
   app.add_flag("!--no-peers", flags.peers, "Homing alone");
   CLI11_PARSE(app, argc, argv);

@@ -79,15 +79,16 @@ Differences Enhance(const Differences& differences) {
 }  // namespace
 
 Differences DifferencesOf(const Run& run) {
-  const Drive& map = *run.maps[0];
-  Differences differences(run.query.size(), std::vector<float>(map.size(), 0));
+  const auto map = StepsOf(*run.maps[0]);
+  const auto query = run.QuerySteps();
+  Differences differences(query.size(), std::vector<float>(map.size(), 0));
   for (std::size_t camera = 0; camera < 2; ++camera) {
     const auto side =
         static_cast<std::size_t>(RouteSide(Side{static_cast<int>(camera)}, run.travel));
     std::vector<Normalised> stored;
-    for (const Instant& instant : map) stored.push_back(Normalise(instant.pictures[side]));
-    for (std::size_t q = 0; q < run.query.size(); ++q) {
-      const Normalised seen = Normalise(run.query[q]->pictures[camera]);
+    for (const Instant* step : map) stored.push_back(Normalise(step->pictures[side]));
+    for (std::size_t q = 0; q < query.size(); ++q) {
+      const Normalised seen = Normalise(query[q]->pictures[camera]);
       for (std::size_t m = 0; m < map.size(); ++m) {
         if (!seen.empty() && !stored[m].empty()) differences[q][m] += Difference(seen, stored[m]);
       }
@@ -98,7 +99,8 @@ Differences DifferencesOf(const Run& run) {
 
 Answers SeqSlam(const Run& run, const Differences& differences, int window) {
   const Differences enhanced = Enhance(differences);
-  const auto places = static_cast<int>(run.maps[0]->size());
+  const auto map = StepsOf(*run.maps[0]);
+  const auto places = static_cast<int>(map.size());
   Answers answers;
   for (std::size_t q = 0; q < enhanced.size(); ++q) {
     const int length = std::min(window, static_cast<int>(q) + 1);
@@ -125,15 +127,16 @@ Answers SeqSlam(const Run& run, const Differences& differences, int window) {
     }
     const double lead = second < 1e9 ? second - best[static_cast<std::size_t>(found)]
                                      : -best[static_cast<std::size_t>(found)];
-    answers.push_back(
-        {.place = (*run.maps[0])[static_cast<std::size_t>(found)].place, .score = lead});
+    answers.push_back({.place = map[static_cast<std::size_t>(found)]->place, .score = lead});
   }
-  return answers;
+  return run.ByInstant(answers);
 }
 
 Answers PictureFilter(const Run& run, const Differences& differences, double slope) {
-  const auto places = static_cast<std::int64_t>(run.maps[0]->size());
+  const auto map = StepsOf(*run.maps[0]);
+  const auto places = static_cast<std::int64_t>(map.size());
   RouteBelief belief;
+  const SpeedEvidence speeds(1);
   belief.Grow(places, 1.0 / static_cast<double>(places));
   Answers answers;
   for (const std::vector<float>& row : differences) {
@@ -149,16 +152,16 @@ Answers PictureFilter(const Run& run, const Differences& differences, double slo
       factors.push_back(static_cast<float>(
           std::exp(std::clamp(-slope * (value - middle) / deviation, -5.0, 5.0))));
     }
-    belief.Move();
+    belief.Move(0.05);
     belief.Scale(1 / std::max(belief.Mass(), 1e-20));
     belief.AddToEach(5e-4 / static_cast<double>(places));
-    belief.Weigh(factors);
+    belief.Weigh(factors, std::vector<std::int16_t>(factors.size(), SpeedEvidence::kNoRatio), speeds);
     belief.Scale(1 / std::max(belief.Mass(), 1e-20));
     const StepWindow window = BestWindow(belief.Masses(), run.tolerance_steps, places);
-    answers.push_back({.place = (*run.maps[0])[static_cast<std::size_t>(window.step)].place,
-                       .score = window.mass});
+    answers.push_back(
+        {.place = map[static_cast<std::size_t>(window.step)]->place, .score = window.mass});
   }
-  return answers;
+  return run.ByInstant(answers);
 }
 
 }  // namespace homing::accuracy

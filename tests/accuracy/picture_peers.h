@@ -9,7 +9,7 @@
 
 namespace homing::accuracy {
 
-// Rows: instants of the query; columns: instants of the map.
+// Rows: steps of the query; columns: steps of the map.
 using Differences = std::vector<std::vector<float>>;
 
 // Mean absolute difference of the pictures, 64 x 32, each normalised in patches of 8 x 8 (mean 0,

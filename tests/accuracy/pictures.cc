@@ -30,24 +30,19 @@ std::vector<FlowProfile> ProfilesOf(const std::vector<const Instant*>& instants,
   return profiles;
 }
 
-std::vector<const Instant*> InstantsOf(const Drive& drive) {
-  std::vector<const Instant*> instants;
-  for (const Instant& instant : drive) instants.push_back(&instant);
-  return instants;
-}
-
-// A column an instant of the way home, a row a step, home at the bottom; the more alike the darker.
+// A column a step of the way home, a row a step, home at the bottom; the more alike the darker.
 client::GrayImage MatrixOf(const Run& run) {
-  const Drive& map = *run.maps[0];
-  client::GrayImage image{static_cast<int>(run.query.size()), static_cast<int>(map.size()), {}};
-  std::vector<double> sums(run.query.size() * map.size());
+  const auto map = StepsOf(*run.maps[0]);
+  const auto query = run.QuerySteps();
+  client::GrayImage image{static_cast<int>(query.size()), static_cast<int>(map.size()), {}};
+  std::vector<double> sums(query.size() * map.size());
   const CellMask all = CoveredCells(1);
   std::vector<std::uint16_t> distances(map.size());
   for (std::size_t camera = 0; camera < 2; ++camera) {
     const auto side =
         static_cast<std::size_t>(RouteSide(Side{static_cast<int>(camera)}, run.travel));
-    const auto stored = ProfilesOf(InstantsOf(map), side);
-    const auto seen = ProfilesOf(run.query, camera);
+    const auto stored = ProfilesOf(map, side);
+    const auto seen = ProfilesOf(query, camera);
     for (std::size_t q = 0; q < seen.size(); ++q) {
       ProfileDistances(seen[q], stored, all, distances);
       for (std::size_t m = 0; m < map.size(); ++m) {
@@ -63,17 +58,21 @@ client::GrayImage MatrixOf(const Run& run) {
 }
 
 void DrawPath(Canvas& canvas, const Axes& axes, const Run& run) {
-  for (std::size_t q = 0; q < run.query.size(); ++q) {
-    const auto x = static_cast<double>(q);
-    const double truth = run.query[q]->place;
-    if (!std::isnan(truth)) canvas.Disc(axes.At(x, truth), 2.2, WithAlpha(client::kGreen, 0.5));
+  double step = -1;
+  for (std::size_t i = 0; i < run.query.size(); ++i) {
+    if (!run.query[i]->MakesStep()) continue;
+    step += 1;
+    const double truth = run.query[i]->place;
+    if (!std::isnan(truth)) canvas.Disc(axes.At(step, truth), 2.2, WithAlpha(client::kGreen, 0.5));
   }
-  for (std::size_t q = 0; q < run.homing.size(); ++q) {
-    const Answer& answer = run.homing[q];
+  step = -1;
+  for (std::size_t i = 0; i < run.homing.size(); ++i) {
+    if (!run.query[i]->MakesStep()) continue;
+    step += 1;
+    const Answer& answer = run.homing[i];
     if (std::isnan(answer.place)) continue;
     const bool sure = answer.outcome == Outcome::kMatch;
-    canvas.Disc(axes.At(static_cast<double>(q), answer.place), 1.1,
-                sure ? client::kBlue : client::kRed);
+    canvas.Disc(axes.At(step, answer.place), 1.1, sure ? client::kBlue : client::kRed);
   }
 }
 
@@ -82,7 +81,7 @@ void DrawPath(Canvas& canvas, const Axes& axes, const Run& run) {
 absl::Status DrawSimilarityMatrix(const std::string& path, const Run& run) {
   HOMING_ASSIGN_OR_RETURN(Canvas canvas, Canvas::Create(path, kPage, kPage));
   const Drive& map = *run.maps[0];
-  Axes axes(&canvas, kSquare, {0, static_cast<double>(run.query.size())},
+  Axes axes(&canvas, kSquare, {0, static_cast<double>(run.QuerySteps().size())},
             {map.front().place, map.back().place});
   canvas.Image(kSquare, MatrixOf(run), 0.8);
   axes.Draw({run.set + ": profile distances (dark: alike)", "observation", "place on the route"});

@@ -24,8 +24,8 @@ struct Bound {
 
 struct Measurements {
   std::vector<Run> runs;
-  // Slope that the pictures' filter does best with over the real runs.
-  double picture_slope = 0;
+  // What keeps pictures was run too.
+  bool has_peers = false;
   // By real set, then one for the simulated ones.
   std::vector<std::pair<std::string, double>> microseconds;
   std::vector<std::pair<std::string, double>> bytes;

@@ -6,14 +6,33 @@
 namespace homing::accuracy {
 namespace {
 
+struct Counted {
+  double count = 0;
+  double all = 0;
+  double Share() const { return all > 0 ? count / all : 0; }
+};
+
+void Count(const Run& run, std::size_t first, Outcome outcome, Counted& counted) {
+  for (std::size_t i = first; i < run.homing.size(); ++i) {
+    counted.count += run.homing[i].outcome == outcome ? 1 : 0;
+    counted.all += 1;
+  }
+}
+
+}  // namespace
+
+double Mean(const std::vector<double>& values) {
+  double sum = 0;
+  for (const double value : values) sum += value;
+  return values.empty() ? 0 : sum / static_cast<double>(values.size());
+}
+
 double Median(std::vector<double> values) {
   if (values.empty()) return std::nan("");
   const auto half = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::ranges::nth_element(values, half);
   return *half;
 }
-
-}  // namespace
 
 std::vector<Judgement> Judge(const std::vector<const Run*>& runs, const Answers Run::*method) {
   std::vector<Judgement> judgements;
@@ -54,8 +73,12 @@ PrecisionRecall PrecisionRecallOf(std::vector<Judgement> judgements) {
 }
 
 Calibration CalibrationOf(std::vector<Judgement> judgements) {
-  constexpr std::size_t kBins = 10;
   std::ranges::stable_sort(judgements, {}, &Judgement::score);
+  return SortedCalibrationOf(judgements);
+}
+
+Calibration SortedCalibrationOf(const std::vector<Judgement>& judgements) {
+  constexpr std::size_t kBins = 10;
   Calibration result;
   const auto all = static_cast<double>(judgements.size());
   for (std::size_t bin = 0; bin < kBins; ++bin) {
@@ -89,29 +112,37 @@ double MedianError(const std::vector<const Run*>& runs, const Answers Run::*meth
   return Median(std::move(errors));
 }
 
+double TimeToMatch(const Run& run) {
+  std::size_t first = 0;
+  while (first < run.query.size() && !run.query[first]->MakesStep()) ++first;
+  std::size_t i = first;
+  while (i < run.homing.size() &&
+         (run.homing[i].outcome != Outcome::kMatch || !run.Right(run.homing[i], i))) {
+    ++i;
+  }
+  return static_cast<double>(i - first) + 1;
+}
+
 double MedianTimeToMatch(const std::vector<const Run*>& runs) {
   std::vector<double> times;
-  for (const Run* run : runs) {
-    std::size_t i = 0;
-    while (i < run->homing.size() &&
-           (run->homing[i].outcome != Outcome::kMatch || !run->Right(run->homing[i], i))) {
-      ++i;
-    }
-    times.push_back(static_cast<double>(i) + 1);
-  }
+  for (const Run* run : runs) times.push_back(TimeToMatch(*run));
   return Median(std::move(times));
 }
 
 double Share(const std::vector<const Run*>& runs, Outcome outcome) {
-  double count = 0;
-  double all = 0;
+  Counted counted;
+  for (const Run* run : runs) Count(*run, 0, outcome, counted);
+  return counted.Share();
+}
+
+double LateShare(const std::vector<const Run*>& runs, Outcome outcome) {
+  constexpr std::size_t kLate = 49;
+  Counted counted;
   for (const Run* run : runs) {
-    for (const Answer& answer : run->homing) {
-      count += answer.outcome == outcome ? 1 : 0;
-      all += 1;
-    }
+    const std::size_t size = run->homing.size();
+    Count(*run, size > kLate ? kLate : size / 2, outcome, counted);
   }
-  return all > 0 ? count / all : 0;
+  return counted.Share();
 }
 
 }  // namespace homing::accuracy

@@ -47,16 +47,27 @@ struct Calibration {
 
 // REQUIRES: scores are probabilities.
 Calibration CalibrationOf(std::vector<Judgement> judgements);
+// The same of judgements in ascending order of score.
+Calibration SortedCalibrationOf(const std::vector<Judgement>& judgements);
 
 // Of the judged instants with a place, units of place; NaN if none.
 double MedianError(const std::vector<const Run*>& runs, const Answers Run::*method);
 
-// Instants until the first right MATCH, median over the runs; a run without one counts as its
-// length.
+// Observations until the first right MATCH, from the first that makes a step on; as many as there
+// are if there is none.
+double TimeToMatch(const Run& run);
+// Median over the runs.
 double MedianTimeToMatch(const std::vector<const Run*>& runs);
 
-// Share of all instants answered `outcome`.
+// Share of all answers that are `outcome`.
 double Share(const std::vector<const Run*>& runs, Outcome outcome);
+// The same from the 50th answer of each run on, from the middle of a shorter one.
+double LateShare(const std::vector<const Run*>& runs, Outcome outcome);
+
+// 0 if there are none.
+double Mean(const std::vector<double>& values);
+// NaN if there are none.
+double Median(std::vector<double> values);
 
 }  // namespace homing::accuracy
 

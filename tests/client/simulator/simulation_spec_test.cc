@@ -17,7 +17,8 @@ using ::testing::HasSubstr;
 TEST(SimulationSpecTest, EveryKeyIsRead) {
   const auto spec = ParseSimulationSpec(
       "sim:landmarks,seed=3,length=60,fps=4,speed=5,offset=-1.5,light=0.6,noise=4,remove=0.25,"
-      "wobble=0.3,stop=5,travel=return,drive=9");
+      "wobble=0.3,stop=5,vary=0.5,extra=12,yaw=-30,yaw_wobble=4,rough=0.5,repeat=5,drop=0.3,"
+      "drop_run=10,travel=return,drive=9");
   ASSERT_THAT(spec, IsOk());
   EXPECT_EQ(spec->scene, "landmarks");
   EXPECT_EQ(spec->seed, 3U);
@@ -30,6 +31,14 @@ TEST(SimulationSpecTest, EveryKeyIsRead) {
   EXPECT_EQ(spec->remove, 0.25);
   EXPECT_EQ(spec->wobble_m, 0.3);
   EXPECT_EQ(spec->stop_s, 5);
+  EXPECT_EQ(spec->vary, 0.5);
+  EXPECT_EQ(spec->extra_m, 12);
+  EXPECT_EQ(spec->yaw_deg, -30);
+  EXPECT_EQ(spec->yaw_wobble_deg, 4);
+  EXPECT_EQ(spec->rough_deg, 0.5);
+  EXPECT_EQ(spec->repeat, 5);
+  EXPECT_EQ(spec->drop, 0.3);
+  EXPECT_EQ(spec->drop_run, 10);
   EXPECT_TRUE(spec->travel_return);
   EXPECT_EQ(spec->drive_seed, 9U);
 }
@@ -69,6 +78,15 @@ TEST(SimulationSpecTest, WrongTextIsRefusedNamingKeyValueAndLimit) {
       {"sim:street,remove=1.1", {"remove", "1.1", "[0, 1]"}},
       {"sim:street,wobble=-1", {"wobble", "-1", "[0, 2]"}},
       {"sim:street,stop=3601", {"stop", "3601", "[0, 3600]"}},
+      {"sim:street,vary=1.1", {"vary", "1.1", "[0, 1]"}},
+      {"sim:street,extra=41", {"extra", "41", "[0, 40]"}},
+      {"sim:street,yaw=181", {"yaw", "181", "[-180, 180]"}},
+      {"sim:street,yaw_wobble=-1", {"yaw_wobble", "-1", "[0, 20]"}},
+      {"sim:street,rough=6", {"rough", "6", "[0, 5]"}},
+      {"sim:street,repeat=1", {"repeat", "1", "whole number in [2, 1000]"}},
+      {"sim:street,repeat=2.5", {"repeat", "2.5", "whole number in [2, 1000]"}},
+      {"sim:street,drop=1", {"drop", "1", "[0, 0.95]"}},
+      {"sim:street,drop_run=1.5", {"drop_run", "1.5", "whole number in [1, 1000]"}},
       {"sim:street,travel=back", {"travel", "back", "return or same"}},
       {"sim:street,fps=4,fps=5", {"fps", "5", "once"}},
   };
@@ -104,6 +122,17 @@ TEST(SimulationSpecTest, DrivesThatDifferInAKeyDifferInTheirSeed) {
   EXPECT_NE(DriveSeed(outbound), DriveSeed(faster));
   faster.drive_seed = 7;
   EXPECT_EQ(DriveSeed(faster), 7U);
+}
+
+// Drives of before the keys that may be left out keep their bytes.
+TEST(SimulationSpecTest, AKeyThatIsLeftOutDoesNotChangeTheSeed) {
+  EXPECT_EQ(DriveSeed(SimulationSpec()), 18074998158588550365U);
+  SimulationSpec varied;
+  varied.vary = 1;
+  SimulationSpec dropped;
+  dropped.drop = 1;
+  EXPECT_NE(DriveSeed(varied), DriveSeed(SimulationSpec()));
+  EXPECT_NE(DriveSeed(varied), DriveSeed(dropped));
 }
 
 }  // namespace

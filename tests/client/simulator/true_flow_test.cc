@@ -116,7 +116,11 @@ TEST_P(TrueFlowOfScenesTest, DrawsTheNextImageBackOntoThisOne) {
 INSTANTIATE_TEST_SUITE_P(Scenes, TrueFlowOfScenesTest,
                          ::testing::Values("sim:street,length=40", "sim:landmarks,length=40",
                                            "sim:street,length=40,wobble=0.5,travel=return",
-                                           "sim:landmarks,length=40,seed=5,speed=6"));
+                                           "sim:landmarks,length=40,seed=5,speed=6",
+                                           "sim:street,length=40,yaw=30,yaw_wobble=4",
+                                           "sim:landmarks,length=40,yaw=-40,travel=return",
+                                           "sim:street,length=40,rough=1,vary=1",
+                                           "sim:landmarks,length=40,rough=2,yaw_wobble=5"));
 
 }  // namespace
 }  // namespace homing::client
