@@ -15,6 +15,8 @@ constexpr double kNearPart = 0.97;
 constexpr double kNearnessUnit = 0.1;
 // A map is measured again when it has grown by this factor.
 constexpr double kMuchGrown = 1.25;
+constexpr std::size_t kNoOffset = kPathOffsets.size() / 2;
+static_assert(kPathOffsets[kNoOffset] == 0);
 // Stored profiles that tell how far away those of other places are; at most twice as many.
 constexpr std::int64_t kSamples = 256;
 // A less probable offset is tried only now and then, once the place is known.
@@ -109,16 +111,30 @@ void ProfileLikelihood::Compute(std::span<const JourneyRef> journeys, const Seen
   Weigh(predicted);
 }
 
-// All offsets where any step is in question, else the probable ones and one more in turn.
+// Of the offsets that were tried.
+std::size_t ProfileLikelihood::LikeliestOffset() const {
+  if (!compared_[0] || !compared_[1]) {
+    return kNoOffset;
+  }
+  return static_cast<std::size_t>(std::ranges::max_element(anywhere_) - anywhere_.begin());
+}
+
+// The offset of the robot makes one side larger and the other smaller: one camera alone cannot tell
+// it from other changes, and is compared as it is. All offsets where any step is in question, else
+// the probable ones and one more in turn.
 void ProfileLikelihood::Choose(std::span<const JourneyRef> journeys,
                                std::span<const StepMass> predicted) {
   bool all = true;
   for (std::size_t i = 0; i < journeys.size(); ++i) {
     all = all && std::ssize(predicted[i].mass) == journeys[i].map->step_count();
   }
-  const auto likeliest =
-      static_cast<std::size_t>(std::ranges::max_element(anywhere_) - anywhere_.begin());
+  const std::size_t likeliest = LikeliestOffset();
   const auto in_turn = static_cast<std::size_t>(instants_) % kViews;
+  if (!compared_[0] || !compared_[1]) {
+    chosen_ = {};
+    chosen_[kNoOffset] = true;
+    return;
+  }
   for (std::size_t offset = 0; offset < kViews; ++offset) {
     chosen_[offset] =
         all || anywhere_[offset] >= kLeastOffset || offset == in_turn || offset == likeliest;
@@ -239,8 +255,7 @@ void ProfileLikelihood::Weigh(std::span<const StepMass> predicted) {
 
 double ProfileLikelihood::NearnessOfSide(std::size_t side, std::size_t journey, std::int64_t first,
                                          std::int64_t last) const {
-  const auto offset =
-      static_cast<std::size_t>(std::ranges::max_element(anywhere_) - anywhere_.begin());
+  const std::size_t offset = LikeliestOffset();
   const std::vector<std::uint16_t>& distances = distances_[side][ViewOf(side, offset)][journey];
   const SideScale& scale = *routes_[journey].sides[side];
   const std::int64_t held = first_steps_[journey];

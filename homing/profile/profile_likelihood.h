@@ -60,6 +60,7 @@ class ProfileLikelihood {
 
   double NearnessOfSide(std::size_t side, std::size_t journey, std::int64_t first,
                         std::int64_t last) const;
+  std::size_t LikeliestOffset() const;
   void Choose(std::span<const JourneyRef> journeys, std::span<const StepMass> predicted);
   void Measure(std::span<const JourneyRef> journeys, Side side, const ProfileMaker& seen,
                std::span<const StepMass> predicted);
