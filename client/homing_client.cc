@@ -16,6 +16,7 @@ absl::Status HomingClient::Localize(const LocalizingOptions& options,
                                     ObservationStream* observations, const OnAnswer& on_answer,
                                     const std::stop_token& stop) {
   reported_ = -1;
+  priors_.clear();
   ResendBuffer buffer(observations, options.replay);
   return Reconnecting(*connection_, stop, log_, [&](bool* progress) {
     return Attempt(options, &buffer, on_answer, stop, progress);
@@ -30,8 +31,11 @@ absl::Status HomingClient::Attempt(const LocalizingOptions& options, ResendBuffe
   const auto stream = stub_->Localize(&context);
   v1::LocalizeRequest config;
   *config.mutable_config() = options.config;
-  stream->Write(config);
   const std::int64_t shift = buffer->RewindAll();
+  if (const auto prior = priors_.find(shift - 1); prior != priors_.end()) {
+    *config.mutable_config()->mutable_prior() = prior->second;
+  }
+  stream->Write(config);
   Exchange<v1::LocalizeRequest, v1::LocalizeResponse> exchange(&context, stream.get(),
                                                                options.window);
   const auto fill = [shift](const v1::Observation& observation, v1::LocalizeRequest* request) {
@@ -44,9 +48,21 @@ absl::Status HomingClient::Attempt(const LocalizingOptions& options, ResendBuffe
     buffer->Acknowledge(answer.sequence() + 1);
     if (answer.sequence() <= reported_) return absl::OkStatus();
     reported_ = answer.sequence();
+    KeepPrior(answer, options.replay);
     *progress = true;
     return on_answer(answer);
   });
+}
+
+void HomingClient::KeepPrior(const v1::LocalizeResponse& answer, int replay) {
+  priors_.erase(priors_.begin(), priors_.lower_bound(answer.sequence() - replay - 1));
+  if (!answer.has_step()) return;
+  v1::LocalizePrior& prior = priors_[answer.sequence()];
+  prior.set_journey(answer.journey());
+  prior.set_step(answer.step());
+  prior.set_direction(answer.direction());
+  prior.set_probability(answer.probability());
+  if (answer.has_path_offset()) prior.set_path_offset(answer.path_offset());
 }
 
 absl::StatusOr<v1::MatchLandmarksResponse> HomingClient::Match(

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
 #include <stop_token>
 
@@ -47,11 +48,16 @@ class HomingClient {
   absl::Status Attempt(const LocalizingOptions& options, ResendBuffer* buffer,
                        const OnAnswer& on_answer, const std::stop_token& stop, bool* progress);
 
+  void KeepPrior(const v1::LocalizeResponse& answer, int replay);
+
   const Connection* connection_;
   Log log_;
   std::unique_ptr<v1::HomingService::StubInterface> stub_;
   // Last sequence handed to on_answer.
   std::int64_t reported_ = -1;
+  // Where the robot was at the last answers, by sequence: a new stream starts from the one before
+  // the first observation that is sent again.
+  std::map<std::int64_t, v1::LocalizePrior> priors_;
 };
 
 }  // namespace homing::client

@@ -95,6 +95,10 @@ Json ToJson(const v1::LocalizeResponse& answer) {
           {"interval", std::move(interval)},
           {"progress_home", answer.has_progress_home() ? Json(answer.progress_home()) : Json()},
           {"direction", Word(answer.direction())},
+          {"speed_ratio", answer.has_speed_ratio() ? Json(answer.speed_ratio()) : Json()},
+          {"turn", answer.has_turn() ? Json(answer.turn()) : Json()},
+          {"path_offset", answer.has_path_offset() ? Json(answer.path_offset()) : Json()},
+          {"on_route", answer.on_route()},
           {"landmark", answer.has_landmark() ? Json(answer.landmark()) : Json()},
           {"similarity", answer.has_similarity() ? Json(answer.similarity()) : Json()},
           {"matches", ToArray(answer.matches())}};

@@ -9,6 +9,8 @@
 namespace homing {
 namespace {
 
+// Opposite sideways flows that differ by less say nothing of the motion, pixels.
+constexpr double kLeastAdvancePx = 1;
 constexpr std::array<const char*, 2> kCameraNames{"left", "right"};
 
 absl::Status CheckSize(std::size_t index, const Camera& camera, const Camera& recorded) {
@@ -68,10 +70,51 @@ absl::StatusOr<Localization> Localizer::Localize(const Observation& observation,
   // III, equations (13) to (15), over all stored landmarks.
   result.matches = matcher_.Find(journeys, seen, options_.match);
   // V, future work: where the sequence of what was seen places the robot.
-  result.position =
-      filter_.Update(journeys, result.motion, seen, MakeRouteProfiles(flow, result.motion));
+  const SeenProfiles profiles = MakeRouteProfiles(flow, result.motion);
+  result.position = filter_.Update(journeys, result.motion, seen, profiles);
+  result.turn = TurnOf(journeys, profiles, result.position);
+  // The filter's left is the route's; a robot that has turned round has it on its right.
+  if (options_.travel == Travel::kReturn && result.position.path_offset) {
+    result.position.path_offset = -*result.position.path_offset;
+  }
   TellLandmark(journeys, seen, result);
   return result;
+}
+
+absl::Status Localizer::Start(std::span<const JourneyRef> journeys, const PositionPrior& prior) {
+  PositionPrior of_route = prior;
+  if (options_.travel == Travel::kReturn && prior.path_offset) {
+    of_route.path_offset = -*prior.path_offset;
+  }
+  return filter_.Start(journeys, of_route);
+}
+
+// METHOD 7: A and B are the sideways flows on the left and the right of the route. The motion along
+// the path moves them against each other, a turn moves both alike.
+std::optional<double> Localizer::TurnOf(std::span<const JourneyRef> journeys,
+                                        const SeenProfiles& seen, const Position& position) const {
+  if (!position.step || !seen[0] || !seen[1]) {
+    return std::nullopt;
+  }
+  const JourneyMap& map = *journeys[static_cast<std::size_t>(position.journey)].map;
+  std::array<double, 2> now{}, then{};
+  for (const Side side : {Side::kLeft, Side::kRight}) {
+    const auto at = static_cast<std::size_t>(side);
+    const auto stored = map.profiles(side);
+    if (stored.empty() || !seen[at]->odometer().has_value()) return std::nullopt;
+    const OdometerReading& of_step = stored[static_cast<std::size_t>(*position.step)].odometer;
+    if (!of_step.has_value()) return std::nullopt;
+    now[at] = seen[at]->odometer().median_x / OdometerReading::kSignedPerPx;
+    then[at] = of_step.median_x / OdometerReading::kSignedPerPx;
+  }
+  const double advance = then[1] - then[0];
+  if (std::abs(advance) < kLeastAdvancePx) {
+    return std::nullopt;
+  }
+  const double ratio = (now[1] - now[0]) / advance;
+  const double pixels = (now[0] + now[1] - ratio * (then[0] + then[1])) / 2;
+  const auto& intrinsics = options_.cameras[0].intrinsics;
+  return intrinsics ? pixels / intrinsics->focal_x : pixels;
 }
 
 absl::StatusOr<std::array<Camera, 2>> Localizer::CamerasFor(

@@ -37,6 +37,10 @@ struct Localization {
   std::optional<std::int32_t> landmark;
   std::optional<double> similarity;
   std::vector<Match> matches;
+  // Turn since the reference frame beyond what following the outbound path needs, to the robot's
+  // left (METHOD 7): rad where a focal length is known, else pixels. Absent without two cameras
+  // that look across the direction of travel.
+  std::optional<double> turn;
 };
 
 // OK if `query` may be localised on a journey of `settings`: image sizes agree side by side of the
@@ -49,6 +53,9 @@ class Localizer {
   // REQUIRES: Validate(options).ok().
   explicit Localizer(const LocalizerOptions& options, const DecodeLimits& limits = {});
 
+  // As PositionFilter::Start.
+  absl::Status Start(std::span<const JourneyRef> journeys, const PositionPrior& prior);
+
   // `journeys` as in PositionFilter::Update. INVALID_ARGUMENT: as ObservationFlow.
   // FAILED_PRECONDITION: image size unlike the journeys'. After an error the state is as before.
   absl::StatusOr<Localization> Localize(const Observation& observation,
@@ -59,6 +66,8 @@ class Localizer {
   absl::StatusOr<std::array<Camera, 2>> CamerasFor(std::span<const JourneyRef> journeys) const;
   SeenSides FindRouteLandmarks(const ObservedFlow& flow, Motion motion) const;
   SeenProfiles MakeRouteProfiles(const ObservedFlow& flow, Motion motion) const;
+  std::optional<double> TurnOf(std::span<const JourneyRef> journeys, const SeenProfiles& seen,
+                               const Position& position) const;
   void TellLandmark(std::span<const JourneyRef> journeys, const SeenSides& seen,
                     Localization& result);
 

@@ -4,6 +4,9 @@
 #include <array>
 #include <cmath>
 
+#include "homing/base/range_check.h"
+#include "homing/base/status_macros.h"
+
 namespace homing {
 namespace {
 
@@ -25,6 +28,8 @@ constexpr double kKnownOnRoute = 0.95;
 constexpr double kKnownPlace = 0.99;
 // The paper's P_T alone: log odds by observation, bounded by RouteMembership.
 constexpr double kLandmarkWeight = 1;
+// The robot may have been carried away while the link was down.
+constexpr double kMostPrior = 0.95;
 constexpr std::int16_t kNoRatio = SpeedEvidence::kNoRatio;
 
 // Steps count from home.
@@ -52,6 +57,30 @@ Position PositionFilter::Update(std::span<const JourneyRef> journeys, Motion mot
     }
   }
   return Answer();
+}
+
+absl::Status PositionFilter::Start(std::span<const JourneyRef> journeys,
+                                   const PositionPrior& prior) {
+  const std::int64_t steps = journeys[static_cast<std::size_t>(prior.journey)].map->step_count();
+  if (steps == 0) {
+    return absl::OkStatus();
+  }
+  HOMING_RETURN_IF_ERROR(CheckRange("prior.step", prior.step, std::int64_t{0}, steps - 1));
+  HOMING_RETURN_IF_ERROR(CheckRange("prior.probability", prior.probability, 0.0, 1.0));
+  Grow(journeys);
+  const double mass = std::min(prior.probability, kMostPrior);
+  for (RouteBelief& belief : beliefs_) belief.Scale(1 - mass);
+  beliefs_[static_cast<std::size_t>(prior.journey)].Add(
+      {.first = prior.step - options_.tolerance_steps,
+       .last = prior.step + options_.tolerance_steps,
+       .homeward = prior.direction != Direction::kOutward,
+       .outward = prior.direction != Direction::kHomeward,
+       .mass = mass});
+  masses_ = Masses();
+  membership_.Add(std::log(1 / (1 - mass)));
+  if (prior.path_offset) profile_likelihood_.StartAtOffset(*prior.path_offset);
+  started_ = true;
+  return absl::OkStatus();
 }
 
 void PositionFilter::Grow(std::span<const JourneyRef> journeys) {

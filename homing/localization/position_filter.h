@@ -41,6 +41,17 @@ struct PositionOptions {
 
 absl::Status Validate(const PositionOptions& options);
 
+// Where the robot was a moment ago, on one of the journeys.
+struct PositionPrior {
+  int journey = 0;
+  std::int64_t step = 0;
+  Direction direction = Direction::kUnknown;
+  // Of the robot being there, 0..1.
+  double probability = 0;
+  // As in Position.
+  std::optional<double> path_offset;
+};
+
 // What the filter believes. step, interval and progress are absent before the first moving
 // observation and for UNKNOWN_PLACE.
 struct Position {
@@ -68,6 +79,10 @@ class PositionFilter {
  public:
   // REQUIRES: Validate(options).ok().
   explicit PositionFilter(const PositionOptions& options);
+
+  // Starts the belief at a place. REQUIRES: no Update yet; the journeys of the first one.
+  // INVALID_ARGUMENT: step or probability out of range.
+  absl::Status Start(std::span<const JourneyRef> journeys, const PositionPrior& prior);
 
   // One observation. The journeys must be the same, in the same order, at each call; a map may have
   // grown (it is still being recorded). Standing moves nothing; nothing seen only predicts.

@@ -82,6 +82,20 @@ void RouteBelief::AddToEach(double mass) {
   }
 }
 
+void RouteBelief::Add(const Place& place) {
+  const std::int64_t first = std::max<std::int64_t>(0, place.first);
+  const std::int64_t last = std::min(step_count_ - 1, place.last);
+  const int ways = (place.homeward ? 1 : 0) + (place.outward ? 1 : 0);
+  const double each =
+      place.mass / scale_ / ways / kSpeedCount / static_cast<double>(last - first + 1);
+  for (std::size_t lane = 0; lane < kLanes; ++lane) {
+    if (!(lane < kSpeedCount ? place.homeward : place.outward)) continue;
+    for (std::int64_t step = first; step <= last; ++step) {
+      lanes_[lane][static_cast<std::size_t>(step)] += static_cast<float>(each);
+    }
+  }
+}
+
 float RouteBelief::Beyond(std::int64_t step) const {
   return step < 0 || step >= step_count_ ? 0 : static_cast<float>(background_ * kPrior);
 }

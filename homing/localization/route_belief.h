@@ -28,6 +28,16 @@ class RouteBelief {
   void Grow(std::int64_t step_count, double mass);
   // Adds `mass` to each step, spread in the same way.
   void AddToEach(double mass);
+  // Adds `mass`, spread over the steps `first` to `last` of the journey and over one direction or
+  // both. REQUIRES: all steps are held one by one; one of the steps is of the journey.
+  struct Place {
+    std::int64_t first = 0;
+    std::int64_t last = 0;
+    bool homeward = true;
+    bool outward = true;
+    double mass = 0;
+  };
+  void Add(const Place& place);
 
   // One observation of motion; each step then gains `restart`. `change`: probability that the speed
   // changes. Mass that passes an end of the journey leaves it: returns that fraction.

@@ -279,6 +279,16 @@ double ProfileLikelihood::Nearness(std::size_t journey, std::int64_t first,
   return count > 0 ? sum / count : 0;
 }
 
+void ProfileLikelihood::StartAtOffset(double offset) {
+  OffsetValues start{};
+  std::size_t nearest = 0;
+  for (std::size_t i = 1; i < kViews; ++i) {
+    if (std::abs(kPathOffsets[i] - offset) < std::abs(kPathOffsets[nearest] - offset)) nearest = i;
+  }
+  start[nearest] = 1;
+  anywhere_ = PathOffsets::Mix(start);
+}
+
 double ProfileLikelihood::MeanOffset() const {
   double mean = 0;
   for (std::size_t offset = 0; offset < kViews; ++offset) {

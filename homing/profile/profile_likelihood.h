@@ -46,6 +46,8 @@ class ProfileLikelihood {
   // map are, in tenths of the distance of different places; mean of the compared sides. Above 0:
   // on the route. REQUIRES: some of these steps are predicted.
   double Nearness(std::size_t journey, std::int64_t first, std::int64_t last) const;
+  // Starts with the robot at this offset, as MeanOffset gives it.
+  void StartAtOffset(double offset);
   // Posterior mean of the offset, in distances of what is seen, to the left of the route.
   double MeanOffset() const;
 

@@ -23,6 +23,9 @@ void EncodePosition(const Position& position, const LocalizationSession& session
   message->set_direction(wire::ToProto(position.direction));
   message->set_probability(position.probability);
   message->set_unknown_probability(position.unknown_probability);
+  message->set_on_route(1 - position.unknown_probability);
+  if (position.speed_ratio) message->set_speed_ratio(*position.speed_ratio);
+  if (position.path_offset) message->set_path_offset(*position.path_offset);
   if (position.step) {
     message->set_journey(session.journey_name(position.journey));
     message->set_step(*position.step);
@@ -47,6 +50,16 @@ absl::StatusOr<std::optional<Camera>> DecodeCamera(bool present, const v1::Camer
   }
   HOMING_ASSIGN_OR_RETURN(const Camera camera, wire::FromProto(message, field));
   return camera;
+}
+
+absl::StatusOr<LocalizationPrior> DecodePrior(const v1::LocalizePrior& message) {
+  LocalizationPrior prior;
+  prior.journey = message.journey();
+  prior.start.step = message.step();
+  prior.start.direction = static_cast<Direction>(message.direction());
+  prior.start.probability = message.probability();
+  if (message.has_path_offset()) prior.start.path_offset = message.path_offset();
+  return prior;
 }
 
 absl::StatusOr<FramePair> DecodeFramePair(const v1::FramePair& message, const std::string& field,
@@ -140,6 +153,7 @@ void EncodeLocalization(const Localization& localization, const LocalizationSess
     message->set_motion(wire::ToProto(localization.motion));
   }
   EncodePosition(localization.position, session, message);
+  if (localization.turn) message->set_turn(*localization.turn);
   if (localization.landmark) {
     message->set_landmark(*localization.landmark);
   }
@@ -189,6 +203,9 @@ absl::StatusOr<HomingQuery> DecodeHomingQuery(const v1::LocalizeConfig& config) 
     query.position.unknown_probability = config.unknown_probability();
   }
   query.position.paper_only = config.paper_only();
+  if (config.has_prior()) {
+    HOMING_ASSIGN_OR_RETURN(query.prior, DecodePrior(config.prior()));
+  }
   return query;
 }
 

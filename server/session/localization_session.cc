@@ -88,6 +88,17 @@ absl::Status LocalizationSession::Start(const Observation& observation) {
   return absl::OkStatus();
 }
 
+// A journey that is not among those chosen says nothing.
+absl::Status LocalizationSession::StartAt(const LocalizationPrior& prior) {
+  for (std::size_t i = 0; i < journeys_.size(); ++i) {
+    if (journeys_[i]->name() != prior.journey) continue;
+    PositionPrior start = prior.start;
+    start.journey = static_cast<int>(i);
+    return Within("config", localizer_->Start(RefsOf(journeys_), start));
+  }
+  return absl::OkStatus();
+}
+
 absl::StatusOr<Localization> LocalizationSession::Localize(const Observation& observation) {
   HOMING_RETURN_IF_ERROR(CheckSequence(observation.sequence));
   if (!localizer_) {
@@ -98,6 +109,10 @@ absl::StatusOr<Localization> LocalizationSession::Localize(const Observation& ob
         absl::StrCat("journey is \"", pattern_.ToString(), "\"; it was deleted"));
   }
   const MapsLock lock(journeys_);
+  if (!started_ && query_.prior) {
+    HOMING_RETURN_IF_ERROR(StartAt(*query_.prior));
+  }
+  started_ = true;
   HOMING_ASSIGN_OR_RETURN(Localization result,
                           localizer_->Localize(observation, RefsOf(journeys_)));
   due_ = observation.sequence + 1;

@@ -15,6 +15,12 @@
 
 namespace homing::server {
 
+// Where the robot was before its link broke.
+struct LocalizationPrior {
+  std::string journey;
+  PositionPrior start;
+};
+
 struct HomingQuery {
   // Name or pattern; of a pattern, those that the filter lets through.
   std::string journey;
@@ -23,6 +29,7 @@ struct HomingQuery {
   std::array<std::optional<Camera>, 2> cameras;
   MatchOptions match;
   PositionOptions position;
+  std::optional<LocalizationPrior> prior;
 };
 
 // Not thread-safe. Journeys are chosen once, at the first observation, when image sizes are known;
@@ -49,6 +56,7 @@ class LocalizationSession {
       : query_(query), pattern_(std::move(pattern)), limits_(limits) {}
   absl::Status CheckSequence(std::int64_t sequence);
   absl::Status Start(const Observation& observation);
+  absl::Status StartAt(const LocalizationPrior& prior);
 
   const HomingQuery query_;
   const JourneyName pattern_;
@@ -56,6 +64,7 @@ class LocalizationSession {
   LiveJourneys journeys_;
   std::optional<Localizer> localizer_;
   std::optional<std::int64_t> due_;
+  bool started_ = false;
 };
 
 }  // namespace homing::server
