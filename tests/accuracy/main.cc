@@ -35,6 +35,7 @@ struct Flags {
 
 // Slopes tried for the pictures' filter; the best over the real sequences is taken.
 constexpr std::array<double, 6> kSlopes = {0.1, 0.2, 0.4, 0.8, 1.6, 3.2};
+constexpr double kUsualSlope = 0.4;
 
 void RunPeers(std::vector<Run>& runs) {
   std::vector<Differences> differences(runs.size());
@@ -55,8 +56,9 @@ void RunPeers(std::vector<Run>& runs) {
     if (run.real && !run.foreign) real.push_back(&run);
   }
   double best_recall = -1;
-  double best_slope = kSlopes[0];
+  double best_slope = kUsualSlope;
   for (const double slope : kSlopes) {
+    if (real.empty()) break;
     filter(slope, true);
     const double recall = Recall(Judge(real, &Run::pictures));
     if (recall > best_recall) {
