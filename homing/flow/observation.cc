@@ -167,7 +167,9 @@ absl::StatusOr<std::optional<FlowField>> ObservationFlow::Take(const CameraView&
   if (!tracker) {
     tracker.emplace(options_);
   }
-  return tracker->Track(checked.gray);
+  absl::StatusOr<std::optional<FlowField>> field = tracker->Track(checked.gray);
+  tracker->Advance();
+  return field;
 }
 
 }  // namespace homing
