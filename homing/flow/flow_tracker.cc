@@ -148,6 +148,8 @@ bool FlowTracker::has_reference() const { return state_->has_reference; }
 
 std::size_t FlowTracker::reference_corners() const { return state_->reference.corners.size(); }
 
+std::size_t FlowTracker::corners() const { return state_->now.corners.size(); }
+
 void FlowTracker::Reset() { state_->has_reference = false; }
 
 }  // namespace homing

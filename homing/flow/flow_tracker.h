@@ -64,6 +64,8 @@ class FlowTracker {
   bool has_reference() const;
   // Corners of the reference frame. REQUIRES: has_reference().
   std::size_t reference_corners() const;
+  // Corners of the frame tracked last. REQUIRES: Track was called since the last Advance.
+  std::size_t corners() const;
 
   // Forgets the reference frame: no vector spans this point.
   void Reset();

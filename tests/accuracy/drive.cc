@@ -19,11 +19,12 @@ Picture PictureOf(const cv::Mat& gray) {
   return {small.begin<std::uint8_t>(), small.end<std::uint8_t>()};
 }
 
-// Turns frames into instants, one less.
+// Turns frames into instants: those that make a step.
 class Maker {
  public:
   void Add(const std::array<cv::Mat, 2>& images, double place) {
     Observation observation;
+    observation.sequence = next_++;
     Instant instant;
     for (std::size_t side = 0; side < images.size(); ++side) {
       const cv::Mat& image = images[side];
@@ -39,14 +40,16 @@ class Maker {
     if (!flow.ok()) Fail(std::string(flow.status().message()));
     instant.flow = *std::move(flow);
     instant.place = 0.5 * (place + last_place_);
-    last_place_ = place;
-    if (instant.flow.fields[0] || instant.flow.fields[1]) drive_.push_back(std::move(instant));
+    if (flow_.reference_sequence() == observation.sequence) last_place_ = place;
+    if (instant.flow.makes_step) drive_.push_back(std::move(instant));
   }
 
   Drive Take() { return std::move(drive_); }
 
  private:
   ObservationFlow flow_{FlowOptions()};
+  std::int64_t next_ = 0;
+  // Of the reference frame.
   double last_place_ = 0;
   Drive drive_;
 };
