@@ -68,7 +68,8 @@ absl::StatusOr<std::optional<Observation>> CameraObservations::NextFlow() {
     if (!instant) return std::optional<Observation>();
     Observation frames = ViewFrames(*instant);
     auto flow_or = flow_->Compute(frames);
-    if (!flow_or.ok()) return Within(absl::StrCat("frame[", next_frame_ - 1, "]"), flow_or.status());
+    if (!flow_or.ok())
+      return Within(absl::StrCat("frame[", next_frame_ - 1, "]"), flow_or.status());
     ObservedFlow flow = *std::move(flow_or);
     if (!flow.makes_step) continue;
     frames.frame = next_frame_ - 1;

@@ -22,8 +22,8 @@ absl::StatusOr<Cameras> OpenCameras(const std::string& left, const std::string& 
 
 class CameraObservations : public ObservationStream {
  public:
-  // With `flow` set, flow vectors, of the frames that make a step: the flow since the frame that made
-  // the step before. REQUIRES: a camera; Validate(*flow).ok().
+  // With `flow` set, flow vectors, of the frames that make a step: the flow since the frame that
+  // made the step before. REQUIRES: a camera; Validate(*flow).ok().
   CameraObservations(Cameras cameras, const std::optional<FlowOptions>& flow);
 
   absl::StatusOr<std::optional<v1::Observation>> Next() override;

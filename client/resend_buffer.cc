@@ -81,10 +81,9 @@ absl::Status ResendBuffer::Rewind(std::int64_t resend_from, std::int64_t durable
     return absl::OkStatus();
   }
   if (!has_rest && !kept_.empty()) {
-    return absl::DataLossError(absl::StrCat("the server needs observation ", durable,
-                                            ", but the camera cannot go back and only ",
-                                            kept_.front()->sequence(), " to ", end() - 1,
-                                            " are kept"));
+    return absl::DataLossError(absl::StrCat(
+        "the server needs observation ", durable, ", but the camera cannot go back and only ",
+        kept_.front()->sequence(), " to ", end() - 1, " are kept"));
   }
   if (!Has(durable)) {
     kept_.clear();

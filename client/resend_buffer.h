@@ -28,9 +28,9 @@ class ResendBuffer {
   // before that.
   void Acknowledge(std::int64_t sequence, std::int64_t reference);
 
-  // The server has all before `durable`: sends `resend_from` <= `durable` again and then all that is
-  // kept from there on, or goes back by Seek. A stream that cannot go back goes on at `durable` at
-  // the latest, with a break. DATA_LOSS: what is due is neither kept nor can it be had again.
+  // The server has all before `durable`: sends `resend_from` <= `durable` again and then all that
+  // is kept from there on, or goes back by Seek. A stream that cannot go back goes on at `durable`
+  // at the latest, with a break. DATA_LOSS: what is due is neither kept nor can it be had again.
   absl::Status Rewind(std::int64_t resend_from, std::int64_t durable);
 
   // Sends again all that is kept. The sequence it begins with.

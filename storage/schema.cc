@@ -208,7 +208,7 @@ WHERE step_id >> 25 NOT IN (SELECT journey_id FROM journeys WHERE input = 'FLOW_
 
 // kMigrations[v] goes from version v to v + 1. Never changed once released.
 constexpr std::array<const char*, kSchemaVersion> kMigrations = {kVersion1, kVersion2, kVersion3,
-                                                               kVersion4};
+                                                                 kVersion4};
 
 absl::Status CheckOwner(Connection& connection, std::int64_t version) {
   const std::int64_t application = connection.Integer("PRAGMA application_id");

@@ -23,7 +23,8 @@ constexpr char kInsert[] = "INSERT INTO steps (" HOMING_STEP_COLUMNS
 constexpr char kSelect[] =
     "SELECT " HOMING_STEP_COLUMNS " FROM steps WHERE step_id >= ? AND step_id < ? ORDER BY step_id";
 constexpr char kSelectLast[] =
-    "SELECT step_id, sequence FROM steps WHERE step_id >= ? AND step_id < ? AND sequence IS NOT NULL"
+    "SELECT step_id, sequence FROM steps WHERE step_id >= ? AND step_id < ? AND sequence IS NOT "
+    "NULL"
     " ORDER BY step_id DESC LIMIT 1";
 constexpr char kSelectLandmarksBack[] =
     "SELECT left1_landmark, left2_landmark, right1_landmark, right2_landmark FROM steps"

@@ -158,7 +158,8 @@ void AddEvaluateCommand(CLI::App& app, Session& session) {
       command.add_option("--truth-home", flags->truth_home, "truth.csv of the drive home");
   outbound->needs(home);
   home->needs(outbound);
-  command.add_option("--send", flags->send, "What localize sent; not needed, lines name their frame")
+  command
+      .add_option("--send", flags->send, "What localize sent; not needed, lines name their frame")
       ->check(CLI::IsMember({"frames", "flow"}))
       ->capture_default_str();
   command.add_option("--after", flags->after_m, "Metres of the way home that do not count")

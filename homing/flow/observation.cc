@@ -185,8 +185,8 @@ absl::StatusOr<ObservedFlow> ObservationFlow::TrackFrames(const CheckedViews& ch
     if (!tracker) tracker.emplace(options_);
     HOMING_ASSIGN_OR_RETURN(flow.fields[side], tracker->Track(checked[side].gray));
     if (flow.fields[side]) {
-      lost = lost || (tracker->reference_corners() >= kMinVectors &&
-                      tracker->corners() >= kMinVectors);
+      lost = lost ||
+             (tracker->reference_corners() >= kMinVectors && tracker->corners() >= kMinVectors);
     }
   }
   flow.makes_step = HasMoved(flow.fields).value_or(lost);

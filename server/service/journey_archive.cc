@@ -256,8 +256,7 @@ absl::StatusOr<ArchivedJourney> DecodeJourney(std::string_view bytes) {
   journey.record.next_sequence = steps == 0 ? 0 : journey.map.sequence(steps - 1) + 1;
   journey.record.resend_from = journey.record.next_sequence;
   // One map, one file: what this program would write differently is not taken.
-  HOMING_ASSIGN_OR_RETURN(const std::string again,
-                          EncodeAs(version, journey.record, journey.map));
+  HOMING_ASSIGN_OR_RETURN(const std::string again, EncodeAs(version, journey.record, journey.map));
   if (again != bytes) return Damaged("holds something that this program does not know");
   return journey;
 }

@@ -57,7 +57,7 @@ absl::StatusOr<QueryRobot> MeasureRobot(const LandmarkQuery& query, const Decode
 
 // Raw flow of one camera (II-B) as the left one's; none for fingerprints and an absent camera.
 absl::StatusOr<ObservedFlow> FlowOf(const QueryView& view, const FlowOptions& options,
-                                                const DecodeLimits& limits) {
+                                    const DecodeLimits& limits) {
   ObservationFlow tracker(options, limits);
   Observation observation;
   if (const auto* pair = std::get_if<FramePair>(&view)) {

@@ -108,12 +108,8 @@ absl::Status RecordingSession::Process(const Observation& observation, TimePoint
   }
   next_ = sequence + 1;
   answer.is_standing = !*step && sequence > 0 && !observation.break_before;
-  storage::JourneyAppend append{claim_.journey->name(),
-                                sequence,
-                                kind_,
-                                observation.capture_time_ns,
-                                *std::move(step),
-                                std::nullopt,
+  storage::JourneyAppend append{claim_.journey->name(),      sequence,         kind_,
+                                observation.capture_time_ns, *std::move(step), std::nullopt,
                                 recorder_->resend_from()};
   if (ImageSizes(recorder_->settings()) != sizes) {
     append.settings = recorder_->settings();

@@ -48,10 +48,10 @@ struct RecordingContext {
 };
 
 // Observations are numbered by the client. One that is durable already is accepted and stores
-// nothing; the reference frame, `resend_from`, rebuilds the state of tracking. A gap is OUT_OF_RANGE
-// and names the expected number. With frames, a stream that goes on at next_sequence without the
-// reference has a gap, unless the observation is marked as a break. Those between the two made no
-// step: they need not be sent again. Record is for one thread at a time.
+// nothing; the reference frame, `resend_from`, rebuilds the state of tracking. A gap is
+// OUT_OF_RANGE and names the expected number. With frames, a stream that goes on at next_sequence
+// without the reference has a gap, unless the observation is marked as a break. Those between the
+// two made no step: they need not be sent again. Record is for one thread at a time.
 class RecordingSession : public std::enable_shared_from_this<RecordingSession> {
  public:
   // Claims the journey; the first answer is given before this returns. INVALID_ARGUMENT (name,

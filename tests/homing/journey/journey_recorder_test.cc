@@ -151,8 +151,7 @@ TEST(JourneyRecorderTest, ResumedRecordingOfASlowRobotIsTheUndisturbedOne) {
 
 TEST(JourneyRecorderTest, RepeatsBelowTheMapMakeNoStep) {
   const auto robot = TravellingRobot::WithFrames(10, 3);
-  JourneyMap map =
-      RecordAll({robot.observations().begin(), robot.observations().begin() + 8});
+  JourneyMap map = RecordAll({robot.observations().begin(), robot.observations().begin() + 8});
   JourneyRecorder recorder(map.settings());
   recorder.Resume(test::TailOf(map));
   for (std::size_t i = 3; i < 10; ++i) RecordInto(recorder, robot.observations()[i], map);
