@@ -44,10 +44,10 @@ absl::StatusOr<Cameras> OpenCameras(const std::string& left, const std::string& 
 
 CameraObservations::CameraObservations(Cameras cameras, const std::optional<FlowOptions>& flow)
     : cameras_(std::move(cameras)), flow_options_(flow) {
-  ForgetLastFrame();
+  ForgetReference();
 }
 
-void CameraObservations::ForgetLastFrame() {
+void CameraObservations::ForgetReference() {
   if (flow_options_) flow_.emplace(*flow_options_);
 }
 
@@ -58,6 +58,7 @@ absl::StatusOr<std::optional<CameraObservations::Instant>> CameraObservations::N
     HOMING_ASSIGN_OR_RETURN(instant[camera], cameras_[camera]->Next());
   }
   if (!instant[0] && !instant[1]) return std::optional<Instant>();
+  ++next_frame_;
   return std::make_optional(std::move(instant));
 }
 
@@ -67,10 +68,11 @@ absl::StatusOr<std::optional<Observation>> CameraObservations::NextFlow() {
     if (!instant) return std::optional<Observation>();
     Observation frames = ViewFrames(*instant);
     auto flow_or = flow_->Compute(frames);
-    if (!flow_or.ok()) return Within(absl::StrCat("observation[", next_, "]"), flow_or.status());
+    if (!flow_or.ok())
+      return Within(absl::StrCat("frame[", next_frame_ - 1, "]"), flow_or.status());
     ObservedFlow flow = *std::move(flow_or);
-    // The first frame has no flow; it makes no observation.
-    if (!flow.fields[0] && !flow.fields[1]) continue;
+    if (!flow.makes_step) continue;
+    frames.frame = next_frame_ - 1;
     for (std::size_t camera = 0; camera < flow.fields.size(); ++camera) {
       frames.views[camera] = std::monostate();
       if (flow.fields[camera]) frames.views[camera] = *std::move(flow.fields[camera]);
@@ -82,6 +84,7 @@ absl::StatusOr<std::optional<Observation>> CameraObservations::NextFlow() {
 v1::Observation CameraObservations::Number(Observation observation) {
   observation.sequence = next_++;
   observation.break_before = std::exchange(break_, false);
+  if (!flow_ && next_frame_ - 1 != observation.sequence) observation.frame = next_frame_ - 1;
   return wire::ToProto(observation);
 }
 
@@ -96,22 +99,44 @@ absl::StatusOr<std::optional<v1::Observation>> CameraObservations::Next() {
   return std::make_optional(Number(ViewFrames(*instant)));
 }
 
-bool CameraObservations::Seek(std::int64_t sequence) {
+bool CameraObservations::SeekCameras(std::int64_t frame) {
   for (const auto& camera : cameras_) {
     if (camera == nullptr) continue;
     const std::int64_t size = camera->size();
-    if (!camera->Seek(size < 0 ? sequence : std::min(sequence, size))) return false;
+    if (!camera->Seek(size < 0 ? frame : std::min(frame, size))) return false;
   }
-  ForgetLastFrame();
-  next_ = sequence;
+  ForgetReference();
+  next_frame_ = frame;
   break_ = false;
   return true;
 }
 
+// The step before was made by a frame that is then the reference: tracking begins there. Where that
+// frame is not known, it is found from the beginning.
+bool CameraObservations::SeekFlow(std::int64_t sequence) {
+  const bool is_known = last_frame_ >= 0;
+  if (!SeekCameras(is_known ? last_frame_ : 0)) return false;
+  for (std::int64_t skipped = is_known ? sequence : 0; skipped < sequence; ++skipped) {
+    const auto skip = NextFlow();
+    // The next call meets the same end or error.
+    if (!skip.ok() || !*skip) break;
+  }
+  return true;
+}
+
+bool CameraObservations::Seek(std::int64_t sequence) {
+  const bool found = flow_ ? SeekFlow(sequence) : SeekCameras(sequence);
+  last_frame_ = -1;
+  if (found) next_ = sequence;
+  return found;
+}
+
 void CameraObservations::ContinueAt(std::int64_t sequence) {
-  ForgetLastFrame();
+  ForgetReference();
   next_ = sequence;
-  break_ = true;
+  // No flow that is sent then spans the break, but their frames must grow.
+  break_ = !flow_;
+  if (flow_) next_frame_ = std::max(next_frame_, last_frame_ + 1);
 }
 
 std::int64_t CameraObservations::size() const {
@@ -121,7 +146,7 @@ std::int64_t CameraObservations::size() const {
     if (camera->size() < 0) return -1;
     frames = std::max(frames, camera->size());
   }
-  return flow_ ? std::max<std::int64_t>(frames - 1, 0) : frames;
+  return frames;
 }
 
 }  // namespace homing::client

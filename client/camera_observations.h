@@ -22,15 +22,16 @@ absl::StatusOr<Cameras> OpenCameras(const std::string& left, const std::string& 
 
 class CameraObservations : public ObservationStream {
  public:
-  // With `flow` set, flow vectors: observation n is the flow from frame n to frame n + 1, so there
-  // is one less. REQUIRES: a camera; Validate(*flow).ok().
+  // With `flow` set, flow vectors, of the frames that make a step: the flow since the frame that
+  // made the step before. REQUIRES: a camera; Validate(*flow).ok().
   CameraObservations(Cameras cameras, const std::optional<FlowOptions>& flow);
 
   absl::StatusOr<std::optional<v1::Observation>> Next() override;
+  void set_last_frame(std::int64_t frame) override { last_frame_ = frame; }
   bool Seek(std::int64_t sequence) override;
   void ContinueAt(std::int64_t sequence) override;
 
-  // Number of observations, -1 if not known.
+  // Number of frames of the longer camera, -1 if not known.
   std::int64_t size() const;
 
  private:
@@ -40,12 +41,17 @@ class CameraObservations : public ObservationStream {
   absl::StatusOr<std::optional<Instant>> NextInstant();
   absl::StatusOr<std::optional<Observation>> NextFlow();
   v1::Observation Number(Observation observation);
-  void ForgetLastFrame();
+  void ForgetReference();
+  bool SeekCameras(std::int64_t frame);
+  bool SeekFlow(std::int64_t sequence);
 
   Cameras cameras_;
   std::optional<FlowOptions> flow_options_;
   std::optional<ObservationFlow> flow_;
   std::int64_t next_ = 0;
+  // Index of the next frame in the source.
+  std::int64_t next_frame_ = 0;
+  std::int64_t last_frame_ = -1;
   bool break_ = false;
 };
 

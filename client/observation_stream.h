@@ -16,6 +16,9 @@ class ObservationStream {
   virtual ~ObservationStream() = default;
   // Numbered from 0 without gaps. Nothing at the end.
   virtual absl::StatusOr<std::optional<v1::Observation>> Next() = 0;
+  // The frame that made the last step of the journey; -1: none, or not known. A stream of flow
+  // vectors goes on from it when Seek or ContinueAt is called next.
+  virtual void set_last_frame(std::int64_t) {}
   // Makes `sequence` the next one, the same as the first time (beyond the end: nothing is next).
   // False: cannot go back (live camera).
   virtual bool Seek(std::int64_t sequence) = 0;

@@ -18,6 +18,7 @@ RecordingClient::RecordingClient(const Connection* connection, RecordingOptions 
 absl::StatusOr<RecordingSummary> RecordingClient::Record(ObservationStream* observations,
                                                          const OnAnswer& on_answer,
                                                          const std::stop_token& stop) {
+  observations_ = observations;
   ResendBuffer buffer(observations, options_.keep);
   HOMING_RETURN_IF_ERROR(Reconnecting(*connection_, stop, log_, [&](bool* progress) {
     return Attempt(&buffer, on_answer, stop, progress);
@@ -65,14 +66,19 @@ absl::Status RecordingClient::Begin(Stream* stream, ResendBuffer* buffer) {
   summary_.next_sequence = durable;
   const std::int64_t resend_from =
       first.has_resend_from() ? std::min(first.resend_from(), durable) : durable;
-  buffer->Acknowledge(durable);
+  if (first.has_frame()) observations_->set_last_frame(first.frame());
+  buffer->Acknowledge(durable, resend_from);
   return buffer->Rewind(resend_from, durable);
 }
 
 absl::Status RecordingClient::Answer(const v1::RecordJourneyResponse& response,
                                      ResendBuffer* buffer, const OnAnswer& on_answer,
                                      bool* progress) {
-  buffer->Acknowledge(response.next_sequence());
+  if (response.has_resend_from()) {
+    buffer->Acknowledge(response.next_sequence(), response.resend_from());
+  } else {
+    buffer->Acknowledge(response.next_sequence());
+  }
   if (response.next_sequence() > summary_.next_sequence) *progress = true;
   summary_.next_sequence = std::max(summary_.next_sequence, response.next_sequence());
   if (!response.has_sequence() || response.sequence() <= reported_) return absl::OkStatus();

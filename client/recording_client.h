@@ -24,7 +24,7 @@ struct RecordingOptions {
   std::string writer_id;
   // Most observations sent and not yet acknowledged. [1, 10000].
   int window = 256;
-  // Acknowledged observations kept for a resend. [0, 10000].
+  // Acknowledged observations kept for a resend besides the reference. [0, 10000].
   int keep = 8;
 };
 
@@ -68,6 +68,8 @@ class RecordingClient {
   RecordingOptions options_;
   Log log_;
   std::unique_ptr<v1::JourneyService::StubInterface> stub_;
+  // Of Record.
+  ObservationStream* observations_ = nullptr;
   RecordingSummary summary_;
   int attempts_ = 0;
   // Last sequence handed to on_answer.

@@ -9,75 +9,100 @@ namespace homing::client {
 
 ResendBuffer::ResendBuffer(ObservationStream* stream, int keep) : stream_(stream), keep_(keep) {}
 
-std::int64_t ResendBuffer::begin() const {
-  return kept_.empty() ? cursor_ : kept_.front()->sequence();
+std::int64_t ResendBuffer::end() const {
+  return kept_.empty() ? next_ : kept_.back()->sequence() + 1;
 }
 
-std::int64_t ResendBuffer::end() const {
-  return kept_.empty() ? cursor_ : kept_.back()->sequence() + 1;
+std::size_t ResendBuffer::IndexOf(std::int64_t sequence) const {
+  const auto found = std::lower_bound(
+      kept_.begin(), kept_.end(), sequence,
+      [](const auto& observation, std::int64_t value) { return observation->sequence() < value; });
+  return static_cast<std::size_t>(found - kept_.begin());
+}
+
+bool ResendBuffer::Has(std::int64_t sequence) const {
+  const std::size_t index = IndexOf(sequence);
+  return index < kept_.size() && kept_[index]->sequence() == sequence;
 }
 
 absl::StatusOr<std::shared_ptr<const v1::Observation>> ResendBuffer::Next() {
   {
     const std::lock_guard lock(mutex_);
-    if (cursor_ < end()) return kept_[static_cast<std::size_t>(cursor_++ - begin())];
+    if (cursor_ < kept_.size()) return kept_[cursor_++];
   }
-  // Only this thread moves the cursor, so the stream may be read without the lock.
+  // Only this thread moves the cursor forward, so the stream may be read without the lock.
   HOMING_ASSIGN_OR_RETURN(auto next, stream_->Next());
   if (!next) return std::shared_ptr<const v1::Observation>();
   auto observation = std::make_shared<const v1::Observation>(*std::move(next));
   const std::lock_guard lock(mutex_);
   kept_.push_back(observation);
-  cursor_ = observation->sequence() + 1;
+  cursor_ = kept_.size();
+  next_ = observation->sequence() + 1;
   return observation;
+}
+
+void ResendBuffer::Drop(std::int64_t first, std::int64_t after, std::int64_t sequence) {
+  // What is not sent again yet stays.
+  const std::int64_t sent = cursor_ < kept_.size() ? kept_[cursor_]->sequence() : end();
+  const auto erase = [this](std::int64_t from, std::int64_t to) {
+    const std::size_t begin = IndexOf(from);
+    const std::size_t count = std::max(IndexOf(to), begin) - begin;
+    const auto at = kept_.begin() + static_cast<std::ptrdiff_t>(begin);
+    kept_.erase(at, at + static_cast<std::ptrdiff_t>(count));
+    cursor_ -= count;
+  };
+  erase(after, std::min(sequence, sent));
+  erase(0, std::min(first, sent));
 }
 
 void ResendBuffer::Acknowledge(std::int64_t sequence) {
   const std::lock_guard lock(mutex_);
   acknowledged_ = std::max(acknowledged_, sequence);
-  // What is behind the cursor and old enough can go.
-  const std::int64_t first = std::min(acknowledged_ - keep_, cursor_);
-  while (!kept_.empty() && kept_.front()->sequence() < first) kept_.pop_front();
+  Drop(acknowledged_ - keep_, acknowledged_, acknowledged_);
+}
+
+void ResendBuffer::Acknowledge(std::int64_t sequence, std::int64_t reference) {
+  const std::lock_guard lock(mutex_);
+  acknowledged_ = std::max(acknowledged_, sequence);
+  Drop(reference - keep_, reference + 1, acknowledged_);
 }
 
 absl::Status ResendBuffer::Rewind(std::int64_t resend_from, std::int64_t durable) {
   const std::lock_guard lock(mutex_);
-  if (begin() <= resend_from && resend_from <= end()) {
-    cursor_ = resend_from;
+  const bool has_rest = Has(durable) || durable == end();
+  if (has_rest && (Has(resend_from) || resend_from == end())) {
+    cursor_ = IndexOf(resend_from);
     return absl::OkStatus();
   }
   if (stream_->Seek(resend_from)) {
     kept_.clear();
-    cursor_ = resend_from;
+    cursor_ = 0;
+    next_ = resend_from;
     return absl::OkStatus();
   }
-  if (kept_.empty()) {
-    stream_->ContinueAt(durable);
-    cursor_ = durable;
-    return absl::OkStatus();
+  if (!has_rest && !kept_.empty()) {
+    return absl::DataLossError(absl::StrCat(
+        "the server needs observation ", durable, ", but the camera cannot go back and only ",
+        kept_.front()->sequence(), " to ", end() - 1, " are kept"));
   }
-  if (durable < begin() || durable > end()) {
-    return absl::DataLossError(absl::StrCat("the server needs observation ", durable,
-                                            ", but the camera cannot go back and only ", begin(),
-                                            " to ", end() - 1, " are kept"));
-  }
-  cursor_ = durable;
-  if (durable == end()) {
+  if (!Has(durable)) {
     kept_.clear();
+    cursor_ = 0;
+    next_ = durable;
     stream_->ContinueAt(durable);
     return absl::OkStatus();
   }
-  auto& first = kept_[static_cast<std::size_t>(durable - begin())];
-  auto marked = std::make_shared<v1::Observation>(*first);
+  cursor_ = IndexOf(durable);
+  auto marked = std::make_shared<v1::Observation>(*kept_[cursor_]);
   marked->set_break_before(true);
-  first = std::move(marked);
+  kept_[cursor_] = std::move(marked);
   return absl::OkStatus();
 }
 
 std::int64_t ResendBuffer::RewindAll() {
   const std::lock_guard lock(mutex_);
-  cursor_ = begin();
-  return cursor_;
+  cursor_ = 0;
+  return kept_.empty() ? next_ : kept_.front()->sequence();
 }
 
 }  // namespace homing::client

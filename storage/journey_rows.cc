@@ -12,13 +12,13 @@ namespace {
 
 constexpr char kInsertJourney[] =
     "INSERT INTO journeys (name, state, writer_id, readers, input, next_sequence, create_time_ns,"
-    " start_time_ns, end_time_ns, step_count, landmark_count, fingerprint_count)"
-    " VALUES (?,?,?,?,?,?,?,?,?,?,?,?) ON CONFLICT (name) DO NOTHING RETURNING journey_id";
+    " start_time_ns, end_time_ns, step_count, landmark_count, fingerprint_count, resend_from)"
+    " VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?) ON CONFLICT (name) DO NOTHING RETURNING journey_id";
 
 #define HOMING_JOURNEY_COLUMNS                                                         \
   "journey_id, name, state, writer_id, readers, input, next_sequence, create_time_ns," \
   " start_time_ns, end_time_ns, step_count, landmark_count, fingerprint_count,"        \
-  " coalesce(settings, '')"
+  " coalesce(settings, ''), resend_from"
 
 #define HOMING_JOURNEYS " FROM journeys LEFT JOIN journey_settings USING (journey_id)"
 
@@ -53,6 +53,7 @@ absl::StatusOr<JourneyRow> ReadJourneyRow(Query& query) {
   record.landmark_count = static_cast<std::int32_t>(query.Integer(11));
   record.fingerprint_count = query.Integer(12);
   HOMING_ASSIGN_OR_RETURN(record.settings, JourneySettingsFromJson(query.Text(13)));
+  record.resend_from = query.Integer(14);
   return row;
 }
 
@@ -70,7 +71,8 @@ absl::StatusOr<std::int64_t> InsertJourney(Connection& connection, const Journey
   Query query = connection.Prepare(
       kInsertJourney, record.name, Word(record.state), record.writer_id, ToJson(record.readers),
       Word(record.input), record.next_sequence, record.create_time_ns, record.start_time_ns,
-      record.end_time_ns, record.step_count, record.landmark_count, record.fingerprint_count);
+      record.end_time_ns, record.step_count, record.landmark_count, record.fingerprint_count,
+      record.resend_from);
   if (!query.Next()) {
     return absl::AlreadyExistsError(absl::StrCat("journey '", record.name, "' already exists"));
   }

@@ -31,6 +31,8 @@ struct JourneyRecord {
   InputKind input = InputKind::kUnknown;
   // First sequence that is not durable.
   std::int64_t next_sequence = 0;
+  // What recording that goes on must see first: for frames, the reference; else next_sequence.
+  std::int64_t resend_from = 0;
   // Nanoseconds since the epoch; 0: not given. create: server's clock; start, end: robot's, of the
   // first and the last step.
   std::int64_t create_time_ns = 0;
@@ -52,6 +54,8 @@ struct JourneyAppend {
   std::optional<JourneyStep> step;
   // Set when an image size became known with this observation.
   std::optional<JourneySettings> settings;
+  // Becomes the journey's resend_from.
+  std::int64_t resend_from = 0;
 };
 
 struct StoredModel {

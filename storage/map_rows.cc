@@ -69,7 +69,10 @@ absl::StatusOr<JourneyMap> ReadMap(Connection& connection, const JourneyRow& jou
 absl::StatusOr<JourneyTail> ReadTail(Connection& connection, const JourneyRow& journey) {
   const JourneyRecord& record = journey.record;
   HOMING_RETURN_IF_ERROR(CheckStepCount(journey));
-  JourneyTail tail{record.step_count, record.landmark_count, {}};
+  JourneyTail tail{record.step_count,
+                   record.landmark_count,
+                   FindLastSequence(connection, journey.id, record.step_count),
+                   {}};
   Query row =
       SelectSteps(connection, journey.id, FirstTailStep(record.settings, record.step_count));
   while (row.Next()) {
@@ -84,6 +87,7 @@ void WriteMap(Connection& connection, std::int64_t journey_id, const JourneyMap&
   for (std::int64_t number = 0; number < map.step_count(); ++number) {
     JourneyStep step;
     step.step = number;
+    step.sequence = map.sequence(number);
     for (const Fingerprint& fingerprint : map.fingerprints(number)) {
       step.fingerprints.push_back(
           {map.side_of(fingerprint), fingerprint,

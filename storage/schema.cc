@@ -190,8 +190,25 @@ CREATE VIEW journey_landmarks AS
   FROM journey_fingerprints GROUP BY journey, landmark;
 )sql";
 
+// From version 3 to 4: each step keeps the frame that made it, and has a row for that; a journey
+// keeps what recording must see again. Until then each frame but the first made a step.
+constexpr char kVersion4[] = R"sql(
+ALTER TABLE journeys ADD COLUMN resend_from INTEGER NOT NULL DEFAULT 0;
+UPDATE journeys
+SET resend_from = CASE input WHEN 'FLOW_VECTORS' THEN next_sequence ELSE max(next_sequence - 1, 0) END;
+
+-- NULL, as where a step has no row: one after that of the step before, 1 for the first step.
+ALTER TABLE steps ADD COLUMN sequence INTEGER;
+INSERT OR IGNORE INTO steps (step_id)
+SELECT (journey_id << 25) + step_count - 1 FROM journeys WHERE step_count BETWEEN 1 AND 0x1ffffff;
+UPDATE steps SET sequence = step_id & 0x1ffffff;
+UPDATE steps SET sequence = sequence + 1
+WHERE step_id >> 25 NOT IN (SELECT journey_id FROM journeys WHERE input = 'FLOW_VECTORS');
+)sql";
+
 // kMigrations[v] goes from version v to v + 1. Never changed once released.
-constexpr std::array<const char*, kSchemaVersion> kMigrations = {kVersion1, kVersion2, kVersion3};
+constexpr std::array<const char*, kSchemaVersion> kMigrations = {kVersion1, kVersion2, kVersion3,
+                                                                 kVersion4};
 
 absl::Status CheckOwner(Connection& connection, std::int64_t version) {
   const std::int64_t application = connection.Integer("PRAGMA application_id");

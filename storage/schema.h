@@ -12,7 +12,7 @@ namespace homing::storage {
 // `PRAGMA application_id`: "HOMI".
 inline constexpr std::int64_t kApplicationId = 0x484F4D49;
 // `PRAGMA user_version` that this program writes.
-inline constexpr std::int64_t kSchemaVersion = 3;
+inline constexpr std::int64_t kSchemaVersion = 4;
 
 // Makes the tables of an empty file, or brings those of an older version up to date, in one
 // transaction. FAILED_PRECONDITION: a newer version, or another program's file.

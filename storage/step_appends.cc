@@ -14,13 +14,14 @@ namespace homing::storage {
 namespace {
 
 constexpr char kFindActive[] =
-    "SELECT journey_id, state, input, next_sequence, step_count, landmark_count FROM journeys"
-    " WHERE name = ?";
+    "SELECT journey_id, state, input, next_sequence, step_count, landmark_count,"
+    " resend_from FROM journeys WHERE name = ?";
 constexpr char kUpdate[] =
     "UPDATE journeys SET next_sequence = ?2, input = ?3,"
     " start_time_ns = CASE start_time_ns WHEN 0 THEN ?4 ELSE start_time_ns END,"
     " end_time_ns = CASE ?5 WHEN 0 THEN end_time_ns ELSE ?5 END,"
-    " step_count = ?6, landmark_count = ?7, fingerprint_count = fingerprint_count + ?8"
+    " step_count = ?6, landmark_count = ?7, fingerprint_count = fingerprint_count + ?8,"
+    " resend_from = ?9"
     " WHERE journey_id = ?1";
 
 // Two a camera (paper III).
@@ -80,6 +81,8 @@ absl::StatusOr<StepAppends::JourneyColumns*> StepAppends::Find(const std::string
   journey.next_sequence = query.Integer(3);
   journey.step_count = query.Integer(4);
   journey.landmark_count = static_cast<std::int32_t>(query.Integer(5));
+  journey.resend_from = query.Integer(6);
+  journey.last_sequence = FindLastSequence(*connection_, journey.id, journey.step_count);
   return &journeys_.emplace(name, std::move(journey)).first->second;
 }
 
@@ -140,6 +143,11 @@ absl::Status StepAppends::CheckStep(JourneyColumns& journey, const JourneyStep& 
     return absl::InvalidArgumentError(
         absl::StrCat("step is ", step.step, ": must be ", journey.step_count, " to ", last));
   }
+  const std::int64_t least = journey.last_sequence + 1 + step.step - journey.step_count;
+  if (step.sequence != kNextSequence && step.sequence < least) {
+    return absl::InvalidArgumentError(absl::StrCat("sequence of step ", step.step, " is ",
+                                                   step.sequence, ": must be at least ", least));
+  }
   HOMING_RETURN_IF_ERROR(CheckOrder(step));
   std::set<std::int32_t> seen;
   for (const RecordedFingerprint& recorded : step.fingerprints) {
@@ -158,6 +166,10 @@ void StepAppends::AddStep(JourneyColumns& journey, const JourneyAppend& append) 
     journey.sides.emplace(landmark, recorded.side);
     if (landmark == journey.landmark_count) ++journey.landmark_count;
   }
+  const bool is_first = journey.last_sequence < 0;
+  const std::int64_t following =
+      (is_first ? 1 : journey.last_sequence + 1) + step.step - journey.step_count;
+  journey.last_sequence = step.sequence == kNextSequence ? following : step.sequence;
   journey.step_count = step.step + 1;
   journey.new_fingerprints += static_cast<std::int64_t>(step.fingerprints.size());
   // An observation without a step has no say: frames and the flow between them then agree.
@@ -177,6 +189,7 @@ absl::Status StepAppends::Append(const JourneyAppend& append) {
   if (append.input != InputKind::kUnknown) journey->input = append.input;
   if (append.settings) journey->new_settings = append.settings;
   journey->next_sequence = append.sequence + 1;
+  journey->resend_from = append.resend_from;
   if (!journey->is_changed) changed_.push_back(journey);
   journey->is_changed = true;
   return absl::OkStatus();
@@ -197,7 +210,7 @@ void StepAppends::WriteJourney(JourneyColumns& journey) {
   connection_
       ->Prepare(kUpdate, journey.id, journey.next_sequence, Word(journey.input),
                 journey.first_time_ns, journey.last_time_ns, journey.step_count,
-                journey.landmark_count, journey.new_fingerprints)
+                journey.landmark_count, journey.new_fingerprints, journey.resend_from)
       .Run();
   if (journey.new_settings) {
     SetJourneySettings(*connection_, journey.id, *journey.new_settings);

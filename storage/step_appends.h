@@ -40,7 +40,10 @@ class StepAppends {
     JourneyState state = JourneyState::kActive;
     InputKind input = InputKind::kUnknown;
     std::int64_t next_sequence = 0;
+    std::int64_t resend_from = 0;
     std::int64_t step_count = 0;
+    // JourneyStep::sequence of the last step; -1: none.
+    std::int64_t last_sequence = -1;
     std::int32_t landmark_count = 0;
     // Of the landmarks of the last step, and of others.
     std::map<std::int32_t, Side> sides;

@@ -16,12 +16,16 @@ namespace {
   " left2_landmark, left2_x, left2_y, left2_count, left2_spread,"         \
   " right1_landmark, right1_x, right1_y, right1_count, right1_spread,"    \
   " right2_landmark, right2_x, right2_y, right2_count, right2_spread,"    \
-  " left_profile, right_profile"
+  " left_profile, right_profile, sequence"
 
 constexpr char kInsert[] = "INSERT INTO steps (" HOMING_STEP_COLUMNS
-                           ") VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)";
+                           ") VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)";
 constexpr char kSelect[] =
     "SELECT " HOMING_STEP_COLUMNS " FROM steps WHERE step_id >= ? AND step_id < ? ORDER BY step_id";
+constexpr char kSelectLast[] =
+    "SELECT step_id, sequence FROM steps WHERE step_id >= ? AND step_id < ? AND sequence IS NOT "
+    "NULL"
+    " ORDER BY step_id DESC LIMIT 1";
 constexpr char kSelectLandmarksBack[] =
     "SELECT left1_landmark, left2_landmark, right1_landmark, right2_landmark FROM steps"
     " WHERE step_id >= ? AND step_id < ? ORDER BY step_id DESC";
@@ -30,6 +34,7 @@ constexpr char kSelectLandmarksBack[] =
 constexpr int kColumnsOfPlace = 5;
 constexpr int kPlacesOfSide = 2;
 constexpr int kFirstProfile = 1 + 2 * kPlacesOfSide * kColumnsOfPlace;
+constexpr int kSequence = kFirstProfile + 2;
 
 Side SideOfPlace(int place) { return Side{place / kPlacesOfSide}; }
 
@@ -49,7 +54,6 @@ void InsertStep(Connection& connection, std::int64_t journey_id, const JourneySt
   for (std::size_t side = 0; side < cells.size(); ++side) {
     if (step.profiles[side]) cells[side] = EncodeProfile(*step.profiles[side]);
   }
-  if (step.fingerprints.empty() && cells[0].empty() && cells[1].empty()) return;
   Query query = connection.Prepare(kInsert);
   // What is not bound is NULL.
   query.ClearValues();
@@ -69,7 +73,17 @@ void InsertStep(Connection& connection, std::int64_t journey_id, const JourneySt
       query.BindBytes(kFirstProfile + static_cast<int>(side) + 1, cells[side]);
     }
   }
+  if (step.sequence != kNextSequence) query.Bind(kSequence + 1, step.sequence);
   query.Run();
+}
+
+std::int64_t FindLastSequence(Connection& connection, std::int64_t journey_id,
+                              std::int64_t step_count) {
+  Query query =
+      connection.Prepare(kSelectLast, StepId(journey_id, 0), StepId(journey_id, step_count));
+  if (!query.Next()) return step_count == 0 ? -1 : step_count;
+  // Steps without one follow the step before.
+  return query.Integer(1) + step_count - 1 - StepOfId(query.Integer(0));
 }
 
 Query SelectSteps(Connection& connection, std::int64_t journey_id, std::int64_t first) {
@@ -94,6 +108,7 @@ absl::StatusOr<JourneyStep> ReadStep(Query& row) {
     HOMING_ASSIGN_OR_RETURN(step.profiles[static_cast<std::size_t>(side)],
                             DecodeProfile(row.Bytes(kFirstProfile + side)));
   }
+  if (!row.IsNull(kSequence)) step.sequence = row.Integer(kSequence);
   return step;
 }
 

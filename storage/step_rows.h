@@ -12,9 +12,12 @@
 
 namespace homing::storage {
 
-// Nothing for a step without fingerprints and flow profiles. REQUIRES: left before right, at most
-// two on a side.
+// REQUIRES: left before right, at most two on a side.
 void InsertStep(Connection& connection, std::int64_t journey_id, const JourneyStep& step);
+
+// JourneyStep::sequence of the last step below `step_count`; -1: there is no step.
+std::int64_t FindLastSequence(Connection& connection, std::int64_t journey_id,
+                              std::int64_t step_count);
 
 // The rows from `first` on, in order; ReadStep takes the one that it stands on.
 Query SelectSteps(Connection& connection, std::int64_t journey_id, std::int64_t first);

@@ -33,6 +33,7 @@ absl::StatusOr<FlowField> FlowOfPair(const ImagePair& pair) {
   HOMING_ASSIGN_OR_RETURN(const cv::Mat second, DecodeGray(pair.second.view()));
   FlowTracker tracker{FlowOptions()};
   HOMING_RETURN_IF_ERROR(tracker.Track(first).status());
+  tracker.Advance();
   HOMING_ASSIGN_OR_RETURN(auto field, tracker.Track(second));
   return field ? *std::move(field) : FlowField{second.cols, second.rows, {}};
 }

@@ -135,7 +135,7 @@ absl::Status RunEvaluate(const Session& session, const EvaluateFlags& flags) {
   }
   HOMING_ASSIGN_OR_RETURN(const auto outbound, ReadTruthFile(flags.truth_out));
   HOMING_ASSIGN_OR_RETURN(const auto home, ReadTruthFile(flags.truth_home));
-  const auto places = Evaluate(answers, outbound, home, flags.send == "flow");
+  const auto places = Evaluate(answers, outbound, home);
   const Verdict verdict = Judge(places, flags.after_m, flags.within_m);
   HOMING_RETURN_IF_ERROR(PrintVerdict(session, flags, places, verdict));
   if (!flags.out.empty()) HOMING_RETURN_IF_ERROR(DrawEvaluation(flags, places));
@@ -158,7 +158,8 @@ void AddEvaluateCommand(CLI::App& app, Session& session) {
       command.add_option("--truth-home", flags->truth_home, "truth.csv of the drive home");
   outbound->needs(home);
   home->needs(outbound);
-  command.add_option("--send", flags->send, "What localize sent: its numbers differ by one")
+  command
+      .add_option("--send", flags->send, "What localize sent; not needed, lines name their frame")
       ->check(CLI::IsMember({"frames", "flow"}))
       ->capture_default_str();
   command.add_option("--after", flags->after_m, "Metres of the way home that do not count")

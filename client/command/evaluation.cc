@@ -72,9 +72,11 @@ absl::StatusOr<std::vector<LocalizedAnswer>> ReadAnswers(std::istream& file,
     if (!sequence) return BadLine(name, number, "no sequence");
     LocalizedAnswer answer;
     answer.sequence = *sequence;
+    answer.frame = Find<std::int64_t>(object, "frame").value_or(*sequence);
     answer.outcome = FindText(object, "outcome");
     answer.motion = FindText(object, "motion");
     answer.step = Find<std::int64_t>(object, "step");
+    answer.step_frame = Find<std::int64_t>(object, "step_frame");
     answer.probability = Find<double>(object, "probability").value_or(0);
     answer.landmark = Find<std::int64_t>(object, "landmark");
     answer.similarity = Find<double>(object, "similarity");
@@ -83,10 +85,10 @@ absl::StatusOr<std::vector<LocalizedAnswer>> ReadAnswers(std::istream& file,
   return answers;
 }
 
-std::optional<double> PlaceOfStep(const std::vector<TruePlace>& truth, std::int64_t step) {
-  if (step < 0 || step + 1 >= static_cast<std::int64_t>(truth.size())) return std::nullopt;
-  const auto index = static_cast<std::size_t>(step);
-  return 0.5 * (truth[index].metres + truth[index + 1].metres);
+std::optional<double> PlaceOfFrame(const std::vector<TruePlace>& truth, std::int64_t frame) {
+  if (frame < 1 || frame >= static_cast<std::int64_t>(truth.size())) return std::nullopt;
+  const auto index = static_cast<std::size_t>(frame);
+  return 0.5 * (truth[index - 1].metres + truth[index].metres);
 }
 
 std::optional<double> EvaluatedPlace::error_m() const {
@@ -96,13 +98,16 @@ std::optional<double> EvaluatedPlace::error_m() const {
 
 std::vector<EvaluatedPlace> Evaluate(const std::vector<LocalizedAnswer>& answers,
                                      const std::vector<TruePlace>& outbound,
-                                     const std::vector<TruePlace>& home, bool sent_flow) {
+                                     const std::vector<TruePlace>& home) {
   std::vector<EvaluatedPlace> places;
   for (const LocalizedAnswer& answer : answers) {
     EvaluatedPlace place;
     place.answer = answer;
-    if (answer.step) place.believed_m = PlaceOfStep(outbound, *answer.step);
-    place.true_m = PlaceOfStep(home, sent_flow ? answer.sequence : answer.sequence - 1);
+    if (answer.step) {
+      // Lines of earlier versions: each frame but the first made a step.
+      place.believed_m = PlaceOfFrame(outbound, answer.step_frame.value_or(*answer.step + 1));
+    }
+    place.true_m = PlaceOfFrame(home, answer.frame);
     places.push_back(std::move(place));
   }
   return places;

@@ -27,9 +27,13 @@ absl::StatusOr<std::vector<TruePlace>> ReadTruth(std::istream& file, const std::
 // One line of `homing localize --json`.
 struct LocalizedAnswer {
   std::int64_t sequence = 0;
+  // Index in the source; the sequence where a line has none.
+  std::int64_t frame = 0;
   std::string outcome;
   std::string motion;
   std::optional<std::int64_t> step;
+  // Frame of the outbound drive that made the step.
+  std::optional<std::int64_t> step_frame;
   double probability = 0;
   std::optional<std::int64_t> landmark;
   std::optional<double> similarity;
@@ -39,8 +43,8 @@ struct LocalizedAnswer {
 absl::StatusOr<std::vector<LocalizedAnswer>> ReadAnswers(std::istream& file,
                                                          const std::string& name);
 
-// Metres at the middle of a step; with frames, answer n belongs to home step n - 1.
-std::optional<double> PlaceOfStep(const std::vector<TruePlace>& truth, std::int64_t step);
+// Metres in the middle between a frame and the one before.
+std::optional<double> PlaceOfFrame(const std::vector<TruePlace>& truth, std::int64_t frame);
 
 struct EvaluatedPlace {
   LocalizedAnswer answer;
@@ -52,7 +56,7 @@ struct EvaluatedPlace {
 
 std::vector<EvaluatedPlace> Evaluate(const std::vector<LocalizedAnswer>& answers,
                                      const std::vector<TruePlace>& outbound,
-                                     const std::vector<TruePlace>& home, bool sent_flow);
+                                     const std::vector<TruePlace>& home);
 
 struct Verdict {
   // Observations after the first `after_m` of the way home, and those of them within `within_m`.

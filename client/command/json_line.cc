@@ -60,6 +60,7 @@ Json ToJson(const v1::RecordJourneyResponse& answer) {
   }
   return {{"sequence", answer.sequence()},
           {"next_sequence", answer.next_sequence()},
+          {"frame", answer.has_frame() ? answer.frame() : answer.sequence()},
           {"step", answer.has_step() ? Json(answer.step()) : Json()},
           {"motion", Word(answer.motion())},
           {"landmarks", std::move(landmarks)}};
@@ -87,10 +88,12 @@ Json ToJson(const v1::LocalizeResponse& answer) {
     interval = Json::array({answer.interval().first(), answer.interval().last()});
   }
   return {{"sequence", answer.sequence()},
+          {"frame", answer.has_frame() ? answer.frame() : answer.sequence()},
           {"outcome", Word(answer.outcome())},
           {"motion", Word(answer.motion())},
           {"journey", answer.journey().empty() ? Json() : Json(answer.journey())},
           {"step", answer.has_step() ? Json(answer.step()) : Json()},
+          {"step_frame", answer.has_step_frame() ? Json(answer.step_frame()) : Json()},
           {"probability", answer.probability()},
           {"interval", std::move(interval)},
           {"progress_home", answer.has_progress_home() ? Json(answer.progress_home()) : Json()},

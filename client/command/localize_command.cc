@@ -86,7 +86,7 @@ absl::Status Localize(const Session& session, const LocalizeFlags& flags) {
   if (!session.json) HOMING_RETURN_IF_ERROR(session.Print(AnswerHeader()));
   std::map<std::string, int> outcomes;
   const auto on_answer = [&](const v1::LocalizeResponse& answer) {
-    progress.Set(answer.sequence() + 1);
+    progress.Set(answer.frame() + 1);
     ++outcomes[Word(answer.outcome())];
     return session.json ? session.PrintJson(ToJson(answer)) : session.Print(AnswerRow(answer));
   };

@@ -57,7 +57,7 @@ absl::Status SendAll(const Session& session, const Connection& connection, const
   RecordingClient client(&connection, options, [&](const std::string& text) { session.Log(text); });
   Progress progress("recording", observations.size(), !session.quiet);
   const auto on_answer = [&](const v1::RecordJourneyResponse& answer) {
-    progress.Set(answer.next_sequence());
+    progress.Set(answer.frame() + 1);
     return session.json ? session.PrintJson(ToJson(answer)) : absl::OkStatus();
   };
   const auto summary = client.Record(&observations, on_answer, session.stop);

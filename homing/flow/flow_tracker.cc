@@ -109,10 +109,10 @@ FlowField FlowBetween(const TrackedFrame& before, const TrackedFrame& now,
 struct FlowTracker::State {
   FlowOptions options;
   FlowBuffers buffers;
-  // The last frame, if has_before; and where the next one goes.
-  TrackedFrame before;
+  // Valid if has_reference.
+  TrackedFrame reference;
   TrackedFrame now;
-  bool has_before = false;
+  bool has_reference = false;
 };
 
 FlowTracker::FlowTracker(const FlowOptions& options) : state_(std::make_unique<State>()) {
@@ -123,25 +123,33 @@ FlowTracker& FlowTracker::operator=(FlowTracker&&) noexcept = default;
 FlowTracker::~FlowTracker() = default;
 
 absl::StatusOr<std::optional<FlowField>> FlowTracker::Track(const cv::Mat& gray) {
-  const TrackedFrame& before = state_->before;
+  const TrackedFrame& reference = state_->reference;
   if (gray.type() != CV_8UC1 || gray.empty()) {
     return absl::InvalidArgumentError("frame is not a grey image of 8 bits");
   }
-  if (state_->has_before && before.source_size != gray.size()) {
+  if (state_->has_reference && reference.source_size != gray.size()) {
     return absl::InvalidArgumentError(absl::StrCat(
-        "frame of ", gray.cols, " x ", gray.rows, " px differs from the frame before of ",
-        before.source_size.width, " x ", before.source_size.height, " px"));
+        "frame of ", gray.cols, " x ", gray.rows, " px differs from the reference frame of ",
+        reference.source_size.width, " x ", reference.source_size.height, " px"));
   }
   Prepare(gray, state_->options, &state_->buffers, &state_->now);
-  std::optional<FlowField> field;
-  if (state_->has_before) {
-    field = FlowBetween(before, state_->now, state_->options);
+  if (!state_->has_reference) {
+    return std::nullopt;
   }
-  std::swap(state_->before, state_->now);
-  state_->has_before = true;
-  return field;
+  return FlowBetween(reference, state_->now, state_->options);
 }
 
-void FlowTracker::Reset() { state_->has_before = false; }
+void FlowTracker::Advance() {
+  std::swap(state_->reference, state_->now);
+  state_->has_reference = true;
+}
+
+bool FlowTracker::has_reference() const { return state_->has_reference; }
+
+std::size_t FlowTracker::reference_corners() const { return state_->reference.corners.size(); }
+
+std::size_t FlowTracker::corners() const { return state_->now.corners.size(); }
+
+void FlowTracker::Reset() { state_->has_reference = false; }
 
 }  // namespace homing

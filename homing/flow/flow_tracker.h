@@ -43,7 +43,8 @@ struct FlowOptions {
 // INVALID_ARGUMENT naming field, value and limit.
 absl::Status Validate(const FlowOptions& options);
 
-// One camera's tracker. Keeps the pyramid of the last frame only. Not thread-safe; moveable.
+// One camera's tracker. It keeps a reference frame and the frame tracked last. Not thread-safe;
+// moveable.
 class FlowTracker {
  public:
   // REQUIRES: Validate(options).ok().
@@ -52,12 +53,21 @@ class FlowTracker {
   FlowTracker& operator=(FlowTracker&&) noexcept;
   ~FlowTracker();
 
-  // `gray` is CV_8UC1. The field between the frame before and this one, in source pixels, short
-  // vectors included, in a deterministic order; nothing for the first frame after Reset.
-  // INVALID_ARGUMENT: a size other than the frame before's.
+  // `gray` is CV_8UC1. Returns the field from the reference frame to this frame, in source pixels,
+  // short vectors included, in a deterministic order; nothing where there is no reference. The two
+  // frames alone determine the field. INVALID_ARGUMENT: a size unlike the reference frame's.
   absl::StatusOr<std::optional<FlowField>> Track(const cv::Mat& gray);
 
-  // Forgets the last frame: no vector spans this point.
+  // Makes the frame tracked last the reference. REQUIRES: Track was called since the last Advance.
+  void Advance();
+
+  bool has_reference() const;
+  // Corners of the reference frame. REQUIRES: has_reference().
+  std::size_t reference_corners() const;
+  // Corners of the frame tracked last. REQUIRES: Track was called since the last Advance.
+  std::size_t corners() const;
+
+  // Forgets the reference frame: no vector spans this point.
   void Reset();
 
  private:

@@ -1,4 +1,4 @@
-// A flow vector: one corner tracked from one frame to the next (paper II-B).
+// A flow vector: one corner tracked from the reference frame to a later one (paper II-B).
 #ifndef HOMING_FLOW_FLOW_VECTOR_H_
 #define HOMING_FLOW_FLOW_VECTOR_H_
 
@@ -23,7 +23,7 @@ struct FlowVector {
   friend bool operator==(const FlowVector&, const FlowVector&) = default;
 };
 
-// All vectors between two consecutive frames of one camera.
+// All vectors from the reference frame of one camera to a later frame.
 struct FlowField {
   // Size of the images, pixels.
   int width = 0;

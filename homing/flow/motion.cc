@@ -8,14 +8,6 @@
 namespace homing {
 namespace {
 
-// Median length below which nothing moves, over the image width: half a pixel at 370, over three
-// times what noise of 4 of 255 makes of a standing camera's flow.
-constexpr double kStandingShare = 1.35e-3;
-// A camera with fewer vectors has no say, but that a few that move are enough against standing.
-constexpr std::size_t kMinVectors = 8;
-constexpr std::size_t kFewVectors = 3;
-// Fewer than this in all may lie on what is too far away to be seen moving.
-constexpr std::size_t kMinStandingVectors = 40;
 // What a turn on the spot must explain.
 constexpr double kMinExplained = 0.8;
 constexpr double kMaxResidualRatio = 0.25;
@@ -47,29 +39,42 @@ bool IsTurning(const RotationFit& left, const RotationFit& right) {
   return IsExplained(left) && IsExplained(right) && Agree(left.pan, right.pan);
 }
 
+// Whether the upper one of the middle lengths is at least `least`, without finding it: half of the
+// vectors, rounded up, are then as long.
+bool MedianReaches(const FlowField& field, double least) {
+  std::size_t long_enough = 0;
+  for (const FlowVector& v : field.vectors) {
+    const double squared = v.FlowX() * v.FlowX() + v.FlowY() * v.FlowY();
+    long_enough += squared >= least * least ? 1 : 0;
+  }
+  return long_enough >= field.vectors.size() - field.vectors.size() / 2;
+}
+
 }  // namespace
 
+std::optional<bool> HasMoved(const std::array<std::optional<FlowField>, 2>& fields) {
+  std::optional<bool> moved;
+  for (const std::optional<FlowField>& field : fields) {
+    if (field && field->vectors.size() >= kMinVectors) {
+      moved = moved.value_or(false) || MedianReaches(*field, kStepFraction * field->width);
+    }
+  }
+  return moved;
+}
+
 Motion ClassifyMotion(const ObservedFlow& flow, const std::array<Camera, 2>& cameras) {
+  if (!flow.makes_step) {
+    return Motion::kStanding;
+  }
   std::vector<RotationFit> fits;
-  bool standing = true;
-  std::size_t vectors = 0;
   for (std::size_t side = 0; side < 2; ++side) {
     const auto& field = flow.fields[side];
-    if (!field.has_value() || field->vectors.size() < kFewVectors) {
-      continue;
-    }
-    const RotationFit fit = FitRotation(*field, cameras[side]);
-    standing = standing && fit.median_length < kStandingShare * field->width;
-    vectors += field->vectors.size();
-    if (field->vectors.size() >= kMinVectors) {
-      fits.push_back(fit);
+    if (field && field->vectors.size() >= kMinVectors) {
+      fits.push_back(FitRotation(*field, cameras[side]));
     }
   }
   if (fits.empty()) {
     return Motion::kMoving;
-  }
-  if (standing && vectors >= kMinStandingVectors) {
-    return Motion::kStanding;
   }
   const bool turning = fits.size() == 2 ? IsTurning(fits[0], fits[1]) : IsTurning(fits[0]);
   return turning ? Motion::kTurning : Motion::kMoving;

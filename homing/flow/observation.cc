@@ -9,6 +9,7 @@
 #include "homing/base/range_check.h"
 #include "homing/base/status_macros.h"
 #include "homing/base/vector_clones.h"
+#include "homing/flow/motion.h"
 
 namespace homing {
 namespace {
@@ -89,6 +90,20 @@ absl::Status CheckCameraSize(const cv::Size& size, const Camera& camera) {
                                                     " x ", camera.height, " px"));
 }
 
+// Flow vectors as they came. What spans a break is dropped.
+ObservedFlow PassOn(const Observation& observation) {
+  ObservedFlow flow;
+  bool has_field = false;
+  for (std::size_t side = 0; side < 2; ++side) {
+    const auto* field = std::get_if<FlowField>(&observation.views[side]);
+    if (field == nullptr || observation.break_before) continue;
+    flow.fields[side] = *field;
+    has_field = true;
+  }
+  flow.makes_step = HasMoved(flow.fields).value_or(has_field);
+  return flow;
+}
+
 }  // namespace
 
 ObservationFlow::ObservationFlow(const FlowOptions& options, const DecodeLimits& limits)
@@ -116,7 +131,7 @@ absl::StatusOr<ObservedFlow> ObservationFlow::Compute(const Observation& observa
 
 absl::StatusOr<ObservedFlow> ObservationFlow::Compute(const Observation& observation,
                                                       const std::array<Camera, 2>& cameras) {
-  std::array<CheckedView, 2> checked;
+  CheckedViews checked;
   for (std::size_t side = 0; side < 2; ++side) {
     absl::StatusOr<CheckedView> view = Check(observation.views[side], side);
     if (!view.ok()) {
@@ -129,10 +144,18 @@ absl::StatusOr<ObservedFlow> ObservationFlow::Compute(const Observation& observa
     return absl::InvalidArgumentError("observation has neither a left nor a right view");
   }
   // Nothing below fails.
-  ObservedFlow flow;
   for (std::size_t side = 0; side < 2; ++side) {
-    HOMING_ASSIGN_OR_RETURN(flow.fields[side], Take(observation.views[side], checked[side], side,
-                                                    observation.break_before));
+    if (checked[side].size.area() != 0) sizes_[side] = checked[side].size;
+  }
+  if (observation.break_before) ForgetReference();
+  if (checked[0].gray.empty() && checked[1].gray.empty()) {
+    return PassOn(observation);
+  }
+  HOMING_ASSIGN_OR_RETURN(ObservedFlow flow, TrackFrames(checked));
+  // Without corners in common nothing will ever be measured from this reference.
+  if (flow.makes_step || !HasMoved(flow.fields)) {
+    Advance(checked);
+    reference_sequence_ = observation.sequence;
   }
   return flow;
 }
@@ -146,28 +169,39 @@ void ObservationFlow::FillSizes(std::array<Camera, 2>& cameras) const {
   }
 }
 
-absl::StatusOr<std::optional<FlowField>> ObservationFlow::Take(const CameraView& view,
-                                                               const CheckedView& checked,
-                                                               std::size_t side,
-                                                               bool break_before) {
-  if (checked.size.area() != 0) {
-    sizes_[side] = checked.size;
+void ObservationFlow::ForgetReference() {
+  for (std::optional<FlowTracker>& tracker : trackers_) {
+    if (tracker) tracker->Reset();
   }
-  std::optional<FlowTracker>& tracker = trackers_[side];
-  if (tracker && (break_before || checked.gray.empty())) {
-    tracker->Reset();
+}
+
+absl::StatusOr<ObservedFlow> ObservationFlow::TrackFrames(const CheckedViews& checked) {
+  ObservedFlow flow;
+  // A camera had something to track, has something to track it to, and found next to none of it.
+  bool lost = false;
+  for (std::size_t side = 0; side < 2; ++side) {
+    if (checked[side].gray.empty()) continue;
+    std::optional<FlowTracker>& tracker = trackers_[side];
+    if (!tracker) tracker.emplace(options_);
+    HOMING_ASSIGN_OR_RETURN(flow.fields[side], tracker->Track(checked[side].gray));
+    if (flow.fields[side]) {
+      lost = lost ||
+             (tracker->reference_corners() >= kMinVectors && tracker->corners() >= kMinVectors);
+    }
   }
-  if (const auto* field = std::get_if<FlowField>(&view)) {
-    // The flow between the frame before a break and the one after it is none.
-    return break_before ? std::nullopt : std::optional<FlowField>(*field);
+  flow.makes_step = HasMoved(flow.fields).value_or(lost);
+  return flow;
+}
+
+void ObservationFlow::Advance(const CheckedViews& checked) {
+  for (std::size_t side = 0; side < 2; ++side) {
+    if (!trackers_[side]) continue;
+    if (checked[side].gray.empty()) {
+      trackers_[side]->Reset();
+    } else {
+      trackers_[side]->Advance();
+    }
   }
-  if (checked.gray.empty()) {
-    return std::nullopt;
-  }
-  if (!tracker) {
-    tracker.emplace(options_);
-  }
-  return tracker->Track(checked.gray);
 }
 
 }  // namespace homing

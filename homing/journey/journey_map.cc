@@ -62,8 +62,22 @@ absl::Status JourneyMap::CheckLandmark(const JourneyStep& step, std::size_t inde
   return CheckRange("spread", recorded.spread, 0.0, 1e9);
 }
 
+std::int64_t JourneyMap::NextSequence() const {
+  return sequences_.empty() ? 1 : sequences_.back() + 1;
+}
+
+// The steps between have sequences too.
+absl::Status JourneyMap::CheckSequence(const JourneyStep& step) const {
+  const std::int64_t first = sequences_.empty() ? 0 : NextSequence();
+  const std::int64_t least = first + step.step - step_count();
+  if (step.sequence == kNextSequence || step.sequence >= least) return absl::OkStatus();
+  return absl::InvalidArgumentError(absl::StrCat("sequence of step ", step.step, " is ",
+                                                 step.sequence, ", must be at least ", least));
+}
+
 absl::Status JourneyMap::Check(const JourneyStep& step) const {
   HOMING_RETURN_IF_ERROR(CheckRange("step", step.step, step_count(), kMostSteps - 1));
+  HOMING_RETURN_IF_ERROR(CheckSequence(step));
   HOMING_RETURN_IF_ERROR(CheckOrder(step.fingerprints));
   std::size_t known = landmarks_.size();
   for (std::size_t i = 0; i < step.fingerprints.size(); ++i) {
@@ -90,7 +104,13 @@ void JourneyMap::CountIn(std::int64_t step, const RecordedFingerprint& recorded)
 
 absl::Status JourneyMap::Append(const JourneyStep& step) {
   HOMING_RETURN_IF_ERROR(Check(step));
+  const auto before = static_cast<std::size_t>(step_count());
   ExtendTo(step.step + 1);
+  if (step.sequence != kNextSequence) {
+    // The steps between, which have no row in the store, come right before it.
+    std::int64_t sequence = step.sequence;
+    for (std::size_t i = sequences_.size(); i-- > before;) sequences_[i] = sequence--;
+  }
   for (const RecordedFingerprint& recorded : step.fingerprints) {
     CountIn(step.step, recorded);
     fingerprints_.push_back(recorded.fingerprint);
@@ -105,6 +125,9 @@ absl::Status JourneyMap::Append(const JourneyStep& step) {
 
 void JourneyMap::ExtendTo(std::int64_t step_count) {
   if (step_count > this->step_count()) {
+    while (static_cast<std::int64_t>(sequences_.size()) < step_count) {
+      sequences_.push_back(NextSequence());
+    }
     step_begin_.resize(static_cast<std::size_t>(step_count),
                        static_cast<std::int64_t>(fingerprints_.size()));
     for (std::vector<FlowProfile>& profiles : profiles_) {

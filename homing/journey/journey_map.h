@@ -38,8 +38,11 @@ struct RecordedFingerprint {
   friend bool operator==(const RecordedFingerprint&, const RecordedFingerprint&) = default;
 };
 
-// One step of a journey. Without fingerprints when standing, turning, at a break, or nothing was
-// seen.
+// JourneyStep::sequence where it is not known: one after that of the step before; 1 for the first
+// step.
+inline constexpr std::int64_t kNextSequence = -1;
+
+// One step of a journey. Without fingerprints when turning, or nothing was seen.
 struct JourneyStep {
   // From 0, home first.
   std::int64_t step = 0;
@@ -48,13 +51,16 @@ struct JourneyStep {
   std::vector<RecordedFingerprint> fingerprints;
   // Indexed by Side of the route; empty where no camera looked.
   std::array<std::optional<FlowProfile>, 2> profiles{};
+  // The frame that made the step: the observation's sequence, or for flow vectors the index of the
+  // frame in the robot's source, if the client names it. Grows from step to step.
+  std::int64_t sequence = kNextSequence;
   friend bool operator==(const JourneyStep&, const JourneyStep&) = default;
 };
 
 // Most steps of a journey: 46 days at five observations a second. Bounds what a damaged map claims.
 inline constexpr std::int64_t kMostSteps = 20'000'000;
 
-// Not thread-safe: the holder locks. 16 bytes a fingerprint, 8 a step, 96 a profile.
+// Not thread-safe: the holder locks. 16 bytes a fingerprint, 16 a step, 96 a profile.
 class JourneyMap {
  public:
   JourneyMap() = default;
@@ -62,8 +68,8 @@ class JourneyMap {
 
   // INVALID_ARGUMENT: `step` is not step_count() or further on (steps between are empty), a
   // landmark that is neither known nor next or twice in the step, a side unlike the landmark's, a
-  // count not positive, a non-finite mean, over two fingerprints a side, right before left. After
-  // an error the map is as before.
+  // count not positive, a non-finite mean, over two fingerprints a side, right before left, a
+  // sequence too low for the steps between. After an error the map is as before.
   absl::Status Append(const JourneyStep& step);
   // Adds empty steps at the end until there are `step_count`. REQUIRES: step_count <= kMostSteps.
   void ExtendTo(std::int64_t step_count);
@@ -79,6 +85,10 @@ class JourneyMap {
                          ? static_cast<std::size_t>(step_begin_[index + 1])
                          : fingerprints_.size();
     return std::span<const Fingerprint>(fingerprints_).subspan(begin, end - begin);
+  }
+  // JourneyStep::sequence of each step. REQUIRES: 0 <= step < step_count().
+  std::int64_t sequence(std::int64_t step) const {
+    return sequences_[static_cast<std::size_t>(step)];
   }
   // REQUIRES: one of the map's.
   std::int64_t step_of(const Fingerprint& f) const;
@@ -102,6 +112,9 @@ class JourneyMap {
 
  private:
   absl::Status Check(const JourneyStep& step) const;
+  absl::Status CheckSequence(const JourneyStep& step) const;
+  // The sequence of a step that is appended without one.
+  std::int64_t NextSequence() const;
   // Of the fingerprint at `index`, with landmarks below `known` met by then.
   absl::Status CheckLandmark(const JourneyStep& step, std::size_t index, std::size_t known) const;
   void CountIn(std::int64_t step, const RecordedFingerprint& recorded);
@@ -110,6 +123,7 @@ class JourneyMap {
   std::vector<Fingerprint> fingerprints_;
   // Index of each step's first fingerprint.
   std::vector<std::int64_t> step_begin_;
+  std::vector<std::int64_t> sequences_;
   std::vector<Landmark> landmarks_;
   std::array<std::vector<FlowProfile>, 2> profiles_;
 };

@@ -22,6 +22,12 @@ const char* NameOf(InputKind kind) {
   return kind == InputKind::kFrames ? "frames" : "flow vectors";
 }
 
+// JourneyStep::sequence of the step that the observation may make.
+std::int64_t FrameOf(const Observation& observation, InputKind kind) {
+  return kind == InputKind::kFlowVectors ? observation.frame.value_or(observation.sequence)
+                                         : observation.sequence;
+}
+
 }  // namespace
 
 absl::StatusOr<InputKind> InputKindOf(const Observation& observation) {
@@ -38,13 +44,6 @@ absl::StatusOr<InputKind> InputKindOf(const Observation& observation) {
   return std::max(left, right);
 }
 
-std::int64_t LookBack(InputKind kind) { return kind == InputKind::kFrames ? 1 : 0; }
-
-std::optional<std::int64_t> StepOf(InputKind kind, std::int64_t sequence) {
-  const std::int64_t step = sequence - LookBack(kind);
-  return step < 0 ? std::nullopt : std::optional(step);
-}
-
 std::int64_t FirstTailStep(const JourneySettings& settings, std::int64_t step_count) {
   return std::max<std::int64_t>(0, step_count - settings.landmark.max_track_gap_steps - 1);
 }
@@ -54,6 +53,7 @@ JourneyRecorder::JourneyRecorder(const JourneySettings& settings, const DecodeLi
 
 void JourneyRecorder::Resume(const JourneyTail& tail) {
   next_step_ = tail.step_count;
+  last_sequence_ = tail.last_sequence;
   tracker_ = LandmarkTracker(settings_.landmark);
   for (const JourneyStep& step : tail.steps) {
     for (const RecordedFingerprint& recorded : step.fingerprints) {
@@ -71,29 +71,46 @@ absl::Status JourneyRecorder::CheckKind(InputKind kind) const {
       absl::StrCat("observation has ", NameOf(kind), ", must have the journey's ", NameOf(kind_)));
 }
 
+// Frames up to the last step rebuild state; flow vectors have none to rebuild.
+absl::Status JourneyRecorder::CheckGrows(std::int64_t made_by, InputKind kind) const {
+  if (kind == InputKind::kFrames || made_by > last_sequence_) {
+    return absl::OkStatus();
+  }
+  return absl::InvalidArgumentError(
+      absl::StrCat("frame is ", made_by, ", must be over that of the last step, ", last_sequence_));
+}
+
+std::int64_t JourneyRecorder::resend_from() const {
+  return kind_ == InputKind::kFrames ? flow_.reference_sequence() : next_observation_;
+}
+
 absl::StatusOr<std::optional<JourneyStep>> JourneyRecorder::Record(const Observation& observation) {
   HOMING_ASSIGN_OR_RETURN(const InputKind kind, InputKindOf(observation));
   HOMING_RETURN_IF_ERROR(CheckKind(kind));
-  // II-B, equations (1) to (5): corners, and their flow since the frame before.
+  const std::int64_t made_by = FrameOf(observation, kind);
+  HOMING_RETURN_IF_ERROR(CheckGrows(made_by, kind));
+  // II-B, equations (1) to (5): corners, and their flow since the reference frame.
   HOMING_ASSIGN_OR_RETURN(ObservedFlow flow, flow_.Compute(observation, settings_.cameras));
   flow_.FillSizes(settings_.cameras);
   kind_ = kind;
-  const std::optional<std::int64_t> number = StepOf(kind, observation.sequence);
-  if (!number || *number < next_step_) {
+  next_observation_ = observation.sequence + 1;
+  if (!flow.makes_step || made_by <= last_sequence_) {
     return std::nullopt;
   }
   // Own design: what an ideal camera, square to the direction of travel, would have seen.
   flow = Rectify(flow, settings_.cameras);
-  JourneyStep step{.step = *number,
+  JourneyStep step{.step = next_step_,
                    .motion = ClassifyMotion(flow, settings_.cameras),
                    .fingerprints = {},
-                   .profiles = {}};
+                   .profiles = {},
+                   .sequence = made_by};
   if (step.motion == Motion::kMoving) {
     for (const Side side : {Side::kLeft, Side::kRight}) {
       AddLandmarks(side, flow.fields[static_cast<std::size_t>(side)], step);
     }
   }
-  next_step_ = *number + 1;
+  ++next_step_;
+  last_sequence_ = made_by;
   return step;
 }
 

@@ -20,17 +20,12 @@ enum class InputKind { kUnknown = 0, kFrames = 1, kFlowVectors = 2 };
 // INVALID_ARGUMENT: frames and flow vectors in one observation, or no camera.
 absl::StatusOr<InputKind> InputKindOf(const Observation& observation);
 
-// Earlier observations that tracking looks back on: 1 for frames, 0 for flow vectors.
-std::int64_t LookBack(InputKind kind);
-
-// The step that observation `sequence` makes: sequence - 1 for frames (the first makes none),
-// sequence for flow vectors.
-std::optional<std::int64_t> StepOf(InputKind kind, std::int64_t sequence);
-
 // The end of a journey: what its recording goes on from.
 struct JourneyTail {
   std::int64_t step_count = 0;
   std::int32_t landmark_count = 0;
+  // JourneyStep::sequence of the last step; -1: there is no step.
+  std::int64_t last_sequence = -1;
   // From FirstTailStep on, in order; those without fingerprints may be left out. Only their numbers
   // and fingerprints count.
   std::vector<JourneyStep> steps;
@@ -48,17 +43,24 @@ class JourneyRecorder {
   // Takes up a journey that has been recorded before, with the settings given above.
   void Resume(const JourneyTail& tail);
 
-  // Nothing for the first frame and for steps below step_count at Resume (they rebuild state only).
-  // INVALID_ARGUMENT: as InputKindOf and ObservationFlow, a kind unlike the first;
+  // Nothing for an observation that makes no step, and for frames up to the last step of the
+  // journey at Resume (they rebuild state only). Steps are numbered on without gaps.
+  // INVALID_ARGUMENT: as InputKindOf and ObservationFlow, a kind unlike the first, flow vectors of
+  // a frame that is not after the one of the last step;
   // FAILED_PRECONDITION: image size unlike the journey's camera. After an error the state is as
   // before the call.
   absl::StatusOr<std::optional<JourneyStep>> Record(const Observation& observation);
+
+  // What must be recorded first after a restart, so that tracking goes on as if there had been
+  // none: for frames, the reference; flow vectors need nothing, it is the next observation.
+  std::int64_t resend_from() const;
 
   // With image sizes filled in as they become known.
   const JourneySettings& settings() const { return settings_; }
 
  private:
   absl::Status CheckKind(InputKind kind) const;
+  absl::Status CheckGrows(std::int64_t made_by, InputKind kind) const;
   // The landmarks of one camera's field, counted, to the step.
   void AddLandmarks(Side side, const std::optional<FlowField>& field, JourneyStep& step);
 
@@ -67,6 +69,9 @@ class JourneyRecorder {
   LandmarkTracker tracker_;
   InputKind kind_ = InputKind::kUnknown;
   std::int64_t next_step_ = 0;
+  // JourneyStep::sequence of the last step; -1: none.
+  std::int64_t last_sequence_ = -1;
+  std::int64_t next_observation_ = 0;
 };
 
 }  // namespace homing

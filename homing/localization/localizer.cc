@@ -54,17 +54,27 @@ Localizer::Localizer(const LocalizerOptions& options, const DecodeLimits& limits
 
 absl::StatusOr<Localization> Localizer::Localize(const Observation& observation,
                                                  std::span<const JourneyRef> journeys) {
-  Localization result;
-  result.sequence = observation.sequence;
-  // II-B, equations (1) to (5): corners, and their flow since the frame before.
+  // II-B, equations (1) to (5): corners, and their flow since the reference frame.
   HOMING_ASSIGN_OR_RETURN(const auto cameras, CamerasFor(journeys));
   HOMING_ASSIGN_OR_RETURN(ObservedFlow flow, flow_.Compute(observation, cameras));
   flow_.FillSizes(options_.cameras);
+  const bool has_flow = flow.fields[0].has_value() || flow.fields[1].has_value();
+  // Own design: nothing moved enough since the reference, so the belief stays as it is.
+  if (!flow.makes_step && last_) {
+    Localization same = *last_;
+    same.sequence = observation.sequence;
+    same.frame = observation.frame.value_or(observation.sequence);
+    same.motion = Motion::kStanding;
+    same.has_flow = has_flow;
+    return same;
+  }
+  Localization result;
+  result.sequence = observation.sequence;
+  result.frame = observation.frame.value_or(observation.sequence);
+  result.has_flow = has_flow;
   // Own design: what an ideal camera, square to the direction of travel, would have seen.
   flow = Rectify(flow, options_.cameras);
-  result.has_flow = flow.fields[0].has_value() || flow.fields[1].has_value();
-  // Without flow nothing is known of the motion: the belief waits.
-  result.motion = result.has_flow ? ClassifyMotion(flow, options_.cameras) : Motion::kStanding;
+  result.motion = ClassifyMotion(flow, options_.cameras);
   // III, Fig. 4, equations (11), (12): landmarks, by the side of the route that they are on.
   const SeenSides seen = FindRouteLandmarks(flow, result.motion);
   // III, equations (13) to (15), over all stored landmarks.
@@ -78,6 +88,8 @@ absl::StatusOr<Localization> Localizer::Localize(const Observation& observation,
     result.position.path_offset = -*result.position.path_offset;
   }
   TellLandmark(journeys, seen, result);
+  last_ = result;
+  last_->matches.clear();
   return result;
 }
 
@@ -164,6 +176,8 @@ void Localizer::TellLandmark(std::span<const JourneyRef> journeys, const SeenSid
   if (!position.step) {
     return;
   }
+  result.step_sequence =
+      journeys[static_cast<std::size_t>(position.journey)].map->sequence(*position.step);
   const auto best = matcher_.FindBestWithin(journeys[static_cast<std::size_t>(position.journey)],
                                             position.interval_first, position.interval_last, seen,
                                             options_.match.threshold);

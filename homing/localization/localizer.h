@@ -29,9 +29,13 @@ absl::Status Validate(const LocalizerOptions& options);
 
 struct Localization {
   std::int64_t sequence = 0;
+  // Observation::frame, else the sequence.
+  std::int64_t frame = 0;
   Motion motion = Motion::kMoving;
   // False for the first frame and after a break: nothing could be compared.
   bool has_flow = false;
+  // JourneyStep::sequence of position.step.
+  std::optional<std::int64_t> step_sequence;
   Position position;
   // Best match within the position's interval, else none.
   std::optional<std::int32_t> landmark;
@@ -56,6 +60,7 @@ class Localizer {
   // As PositionFilter::Start.
   absl::Status Start(std::span<const JourneyRef> journeys, const PositionPrior& prior);
 
+  // An observation that makes no step is kStanding, has no matches and leaves the belief as it is.
   // `journeys` as in PositionFilter::Update. INVALID_ARGUMENT: as ObservationFlow.
   // FAILED_PRECONDITION: image size unlike the journeys'. After an error the state is as before.
   absl::StatusOr<Localization> Localize(const Observation& observation,
@@ -75,6 +80,8 @@ class Localizer {
   ObservationFlow flow_;
   Matcher matcher_;
   PositionFilter filter_;
+  // The answer to the last step.
+  std::optional<Localization> last_;
 };
 
 }  // namespace homing

@@ -143,6 +143,13 @@ absl::StatusOr<Observation> FromProto(const v1::Observation& message, const Wire
   HOMING_ASSIGN_OR_RETURN(observation.capture_time_ns,
                           FromProto(message.capture_time(), "observation.capture_time"));
   observation.break_before = message.break_before();
+  if (message.has_frame()) {
+    if (message.frame() < 0) {
+      return absl::InvalidArgumentError(
+          absl::StrCat("observation.frame is ", message.frame(), ": must be at least 0"));
+    }
+    observation.frame = message.frame();
+  }
   HOMING_ASSIGN_OR_RETURN(observation.views[0],
                           ViewFromProto(message.left(), "observation.left", limits));
   HOMING_ASSIGN_OR_RETURN(observation.views[1],
@@ -203,6 +210,7 @@ v1::Observation ToProto(const Observation& observation) {
   if (!IsEmpty(observation.views[0])) ViewToProto(observation.views[0], message.mutable_left());
   if (!IsEmpty(observation.views[1])) ViewToProto(observation.views[1], message.mutable_right());
   message.set_break_before(observation.break_before);
+  if (observation.frame) message.set_frame(*observation.frame);
   return message;
 }
 

@@ -46,7 +46,7 @@ std::int64_t LiveJourney::MemoryBytes() const {
   constexpr std::int64_t kBytesAJourney = 2048;
   const std::lock_guard lock(mutex_);
   if (map_state_ == MapState::kNone) return kBytesAJourney;
-  const auto steps = static_cast<std::int64_t>(sizeof(std::int64_t) + 2 * sizeof(FlowProfile));
+  const auto steps = static_cast<std::int64_t>(2 * sizeof(std::int64_t) + 2 * sizeof(FlowProfile));
   return kBytesAJourney + record_.step_count * steps +
          record_.landmark_count * static_cast<std::int64_t>(sizeof(Landmark)) +
          record_.fingerprint_count * static_cast<std::int64_t>(sizeof(Fingerprint));
@@ -124,6 +124,7 @@ void LiveJourney::EndAppend(const storage::JourneyAppend& append, const absl::St
     const std::lock_guard lock(mutex_);
     if (status.ok()) {
       record_.next_sequence = append.sequence + 1;
+      record_.resend_from = append.resend_from;
       record_.input = append.input;
       // As on the disk: an observation without a step has no say.
       if (append.step && append.capture_time_ns != 0) {

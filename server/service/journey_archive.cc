@@ -19,8 +19,12 @@
 namespace homing::server {
 namespace {
 
-// The last byte is the version.
-constexpr std::string_view kMagic = "HOMINGJ\x01";
+// One byte follows, the version.
+constexpr std::string_view kMagic = "HOMINGJ";
+constexpr char kVersion = 2;
+// Without sequences.
+constexpr char kVersionBefore = 1;
+constexpr std::size_t kHeaderBytes = kMagic.size() + 1;
 constexpr std::size_t kChecksumBytes = 4;
 
 absl::Status Damaged(const std::string& what) {
@@ -65,7 +69,8 @@ void ProfilesToProto(std::span<const FlowProfile> profiles, Profiles* column) {
   }
 }
 
-v1::JourneyMap MapToProto(const storage::JourneyRecord& record, const JourneyMap& map) {
+v1::JourneyMap MapToProto(const storage::JourneyRecord& record, const JourneyMap& map,
+                          char version) {
   v1::JourneyMap message;
   *message.mutable_settings() = wire::ToProto(map.settings());
   DeviationToProto(map.settings().deviation_model, message.mutable_deviation());
@@ -78,6 +83,7 @@ v1::JourneyMap MapToProto(const storage::JourneyRecord& record, const JourneyMap
   }
   for (std::int64_t step = 0; step < map.step_count(); ++step) {
     const auto fingerprints = map.fingerprints(step);
+    if (version >= 2) message.add_sequences(map.sequence(step));
     message.add_fingerprints_per_step(static_cast<std::uint32_t>(fingerprints.size()));
     for (const Fingerprint& fingerprint : fingerprints) {
       message.add_landmarks(fingerprint.landmark);
@@ -100,13 +106,17 @@ absl::Status CheckTooLarge(std::size_t size) {
 absl::StatusOr<v1::JourneyMap> Unwrap(std::string_view bytes) {
   HOMING_RETURN_IF_ERROR(CheckTooLarge(bytes.size()));
   if (bytes.substr(0, kMagic.size()) != kMagic) return Damaged("does not begin as one");
-  if (bytes.size() < kMagic.size() + kChecksumBytes) return Damaged("ends too early");
+  if (bytes.size() < kHeaderBytes + kChecksumBytes) return Damaged("ends too early");
+  const char version = bytes[kMagic.size()];
+  if (version < kVersionBefore || version > kVersion) {
+    return Damaged(absl::StrCat("is of version ", int{version}, ": must be 1 to ", int{kVersion}));
+  }
   const std::string_view content = bytes.substr(0, bytes.size() - kChecksumBytes);
   if (Checksum(content) != bytes.substr(content.size())) {
     return Damaged("checksum does not agree: truncated or changed");
   }
   v1::JourneyMap message;
-  const std::string_view body = content.substr(kMagic.size());
+  const std::string_view body = content.substr(kHeaderBytes);
   if (!message.ParseFromArray(body.data(), static_cast<int>(body.size()))) {
     return Damaged("content cannot be parsed");
   }
@@ -118,7 +128,7 @@ absl::Status CheckSize(const char* field, std::int64_t size, std::int64_t expect
   return Damaged(absl::StrCat(field, " has ", size, " entries: must have ", expected));
 }
 
-absl::Status CheckColumns(const v1::JourneyMap& message) {
+absl::Status CheckColumns(const v1::JourneyMap& message, char version) {
   if (message.step_count() < 0 || message.step_count() > kMostSteps) {
     return Damaged(
         absl::StrCat("step_count is ", message.step_count(), ": must be 0 to ", kMostSteps));
@@ -130,6 +140,9 @@ absl::Status CheckColumns(const v1::JourneyMap& message) {
                                    message.step_count()));
   HOMING_RETURN_IF_ERROR(CheckSize("landmark_spreads", message.landmark_spreads_size(),
                                    message.landmark_sides_size()));
+  const bool has_sequences = version >= 2;
+  HOMING_RETURN_IF_ERROR(
+      CheckSize("sequences", message.sequences_size(), has_sequences ? message.step_count() : 0));
   std::int64_t fingerprints = 0;
   for (std::uint32_t of_step : message.fingerprints_per_step()) fingerprints += of_step;
   HOMING_RETURN_IF_ERROR(CheckSize("landmarks", message.landmarks_size(), fingerprints));
@@ -174,6 +187,7 @@ absl::Status AppendSteps(const v1::JourneyMap& message, JourneyMap& map) {
   for (std::int64_t number = 0; number < message.step_count(); ++number) {
     step.step = number;
     step.fingerprints.clear();
+    if (!message.sequences().empty()) step.sequence = message.sequences(static_cast<int>(number));
     const int end =
         index + static_cast<int>(message.fingerprints_per_step(static_cast<int>(number)));
     for (; index < end; ++index) {
@@ -199,13 +213,12 @@ absl::Status SetProfiles(const char* field, const Profiles& column, Side side, J
   return absl::OkStatus();
 }
 
-}  // namespace
-
-absl::StatusOr<std::string> EncodeJourney(const storage::JourneyRecord& record,
-                                          const JourneyMap& map) {
-  const v1::JourneyMap message = MapToProto(record, map);
-  HOMING_RETURN_IF_ERROR(CheckTooLarge(kMagic.size() + message.ByteSizeLong() + kChecksumBytes));
+absl::StatusOr<std::string> EncodeAs(char version, const storage::JourneyRecord& record,
+                                     const JourneyMap& map) {
+  const v1::JourneyMap message = MapToProto(record, map, version);
+  HOMING_RETURN_IF_ERROR(CheckTooLarge(kHeaderBytes + message.ByteSizeLong() + kChecksumBytes));
   std::string bytes(kMagic);
+  bytes.push_back(version);
   {
     google::protobuf::io::StringOutputStream stream(&bytes);
     google::protobuf::io::CodedOutputStream coded(&stream);
@@ -217,23 +230,33 @@ absl::StatusOr<std::string> EncodeJourney(const storage::JourneyRecord& record,
   return bytes + Checksum(bytes);
 }
 
+}  // namespace
+
+absl::StatusOr<std::string> EncodeJourney(const storage::JourneyRecord& record,
+                                          const JourneyMap& map) {
+  return EncodeAs(kVersion, record, map);
+}
+
 absl::StatusOr<ArchivedJourney> DecodeJourney(std::string_view bytes) {
   HOMING_ASSIGN_OR_RETURN(const v1::JourneyMap message, Unwrap(bytes));
-  HOMING_RETURN_IF_ERROR(CheckColumns(message));
+  const char version = bytes[kMagic.size()];
+  HOMING_RETURN_IF_ERROR(CheckColumns(message, version));
   ArchivedJourney journey;
   HOMING_ASSIGN_OR_RETURN(journey.record.settings, SettingsOf(message));
   journey.record.state = storage::JourneyState::kFinished;
   journey.record.start_time_ns = message.start_time_ns();
   journey.record.end_time_ns = message.end_time_ns();
-  journey.record.next_sequence = message.step_count();
   journey.map = JourneyMap(journey.record.settings);
   HOMING_RETURN_IF_ERROR(AppendSteps(message, journey.map));
   HOMING_RETURN_IF_ERROR(
       SetProfiles("left_profiles", message.left_profiles(), Side::kLeft, journey.map));
   HOMING_RETURN_IF_ERROR(
       SetProfiles("right_profiles", message.right_profiles(), Side::kRight, journey.map));
+  const std::int64_t steps = journey.map.step_count();
+  journey.record.next_sequence = steps == 0 ? 0 : journey.map.sequence(steps - 1) + 1;
+  journey.record.resend_from = journey.record.next_sequence;
   // One map, one file: what this program would write differently is not taken.
-  HOMING_ASSIGN_OR_RETURN(const std::string again, EncodeJourney(journey.record, journey.map));
+  HOMING_ASSIGN_OR_RETURN(const std::string again, EncodeAs(version, journey.record, journey.map));
   if (again != bytes) return Damaged("holds something that this program does not know");
   return journey;
 }

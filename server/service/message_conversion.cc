@@ -132,8 +132,12 @@ void EncodeRecordingAnswer(const RecordingAnswer& answer, v1::RecordJourneyRespo
   if (answer.sequence) {
     message->set_sequence(*answer.sequence);
   }
-  if (answer.resend_from) {
-    message->set_resend_from(*answer.resend_from);
+  message->set_resend_from(answer.resend_from);
+  if (answer.frame) {
+    message->set_frame(*answer.frame);
+  }
+  if (answer.is_standing) {
+    message->set_motion(v1::MOTION_STANDING);
   }
   if (answer.step) {
     message->set_step(answer.step->step);
@@ -149,11 +153,15 @@ void EncodeRecordingAnswer(const RecordingAnswer& answer, v1::RecordJourneyRespo
 void EncodeLocalization(const Localization& localization, const LocalizationSession& session,
                         v1::LocalizeResponse* message) {
   message->set_sequence(localization.sequence);
+  message->set_frame(localization.frame);
   if (localization.has_flow) {
     message->set_motion(wire::ToProto(localization.motion));
   }
   EncodePosition(localization.position, session, message);
   if (localization.turn) message->set_turn(*localization.turn);
+  if (localization.step_sequence) {
+    message->set_step_frame(*localization.step_sequence);
+  }
   if (localization.landmark) {
     message->set_landmark(*localization.landmark);
   }

@@ -55,9 +55,9 @@ absl::StatusOr<QueryRobot> MeasureRobot(const LandmarkQuery& query, const Decode
   return robot;
 }
 
-// Raw flow of one camera (II-B); none for fingerprints and an absent camera.
-absl::StatusOr<std::optional<FlowField>> FlowOf(const QueryView& view, const FlowOptions& options,
-                                                const DecodeLimits& limits) {
+// Raw flow of one camera (II-B) as the left one's; none for fingerprints and an absent camera.
+absl::StatusOr<ObservedFlow> FlowOf(const QueryView& view, const FlowOptions& options,
+                                    const DecodeLimits& limits) {
   ObservationFlow tracker(options, limits);
   Observation observation;
   if (const auto* pair = std::get_if<FramePair>(&view)) {
@@ -68,10 +68,9 @@ absl::StatusOr<std::optional<FlowField>> FlowOf(const QueryView& view, const Flo
   } else if (const auto* flow = std::get_if<FlowField>(&view)) {
     observation.views[0] = *flow;
   } else {
-    return std::nullopt;
+    return ObservedFlow();
   }
-  HOMING_ASSIGN_OR_RETURN(ObservedFlow observed, tracker.Compute(observation));
-  return std::move(observed.fields[0]);
+  return tracker.Compute(observation);
 }
 
 struct SeenNow {
@@ -87,8 +86,9 @@ absl::StatusOr<SeenNow> See(const LandmarkQuery& query, const LocalizerOptions& 
   for (std::size_t side = 0; side < query.views.size(); ++side) {
     const auto raw = FlowOf(query.views[side], options.flow, limits);
     HOMING_RETURN_IF_ERROR(Within(NameOf(side), raw.status()));
-    if (*raw) {
-      flow.fields[side] = Rectify(**raw, options.cameras[side]);
+    if (raw->fields[0]) {
+      flow.fields[side] = Rectify(*raw->fields[0], options.cameras[side]);
+      flow.makes_step = flow.makes_step || raw->makes_step;
     }
   }
   if (flow.fields[0] || flow.fields[1]) {

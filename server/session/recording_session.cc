@@ -59,10 +59,13 @@ absl::Status RecordingSession::Start(WriterClaim claim) {
   recorder_->Resume(tail);
   kind_ = record.input;
   next_ = record.next_sequence;
-  due_ = std::max<std::int64_t>(0, next_ - LookBack(kind_));
+  due_ = std::min(record.resend_from, next_);
+  RecordingAnswer first;
+  if (tail.last_sequence >= 0) first.frame = tail.last_sequence;
   const std::lock_guard lock(mutex_);
   durable_next_ = next_;
-  Deliver({true, absl::OkStatus(), {std::nullopt, next_, due_, std::nullopt}});
+  durable_resend_from_ = due_;
+  Deliver({true, absl::OkStatus(), std::move(first)});
   return absl::OkStatus();
 }
 
@@ -84,8 +87,11 @@ absl::Status RecordingSession::Process(const Observation& observation, TimePoint
   HOMING_RETURN_IF_ERROR(claim_.journey->Renew(claim_.claim, now));
   HOMING_RETURN_IF_ERROR(CheckDue(observation));
   const std::int64_t sequence = observation.sequence;
+  RecordingAnswer answer;
+  answer.sequence = sequence;
+  answer.frame = observation.frame.value_or(sequence);
   if (sequence < due_) {
-    Complete(slot, absl::OkStatus(), {sequence, 0, std::nullopt, std::nullopt});
+    Complete(slot, absl::OkStatus(), std::move(answer));
     return absl::OkStatus();
   }
   HOMING_RETURN_IF_ERROR(CheckKind(observation));
@@ -94,18 +100,21 @@ absl::Status RecordingSession::Process(const Observation& observation, TimePoint
   if (!step.ok()) {
     return Within(absl::StrCat("observation[", sequence, "]"), step.status());
   }
-  due_ = sequence + 1;
+  // The reference is all that tracking needs of what is durable.
+  due_ = std::max(sequence + 1, next_);
   if (sequence < next_) {
-    Complete(slot, absl::OkStatus(), {sequence, 0, std::nullopt, std::nullopt});
+    Complete(slot, absl::OkStatus(), std::move(answer));
     return absl::OkStatus();
   }
   next_ = sequence + 1;
+  answer.is_standing = !*step && sequence > 0 && !observation.break_before;
   storage::JourneyAppend append{claim_.journey->name(),      sequence,         kind_,
-                                observation.capture_time_ns, *std::move(step), std::nullopt};
+                                observation.capture_time_ns, *std::move(step), std::nullopt,
+                                recorder_->resend_from()};
   if (ImageSizes(recorder_->settings()) != sizes) {
     append.settings = recorder_->settings();
   }
-  return Commit(std::move(append), slot);
+  return Commit(std::move(append), std::move(answer), slot);
 }
 
 absl::Status RecordingSession::CheckDue(const Observation& observation) const {
@@ -132,12 +141,15 @@ absl::Status RecordingSession::CheckKind(const Observation& observation) {
   return absl::OkStatus();
 }
 
-absl::Status RecordingSession::Commit(storage::JourneyAppend append, std::int64_t slot) {
+absl::Status RecordingSession::Commit(storage::JourneyAppend append, RecordingAnswer answer,
+                                      std::int64_t slot) {
   HOMING_RETURN_IF_ERROR(claim_.journey->BeginAppend(claim_.claim));
-  auto done = [self = shared_from_this(), slot](storage::JourneyAppend ended,
-                                                const absl::Status& status) {
+  auto done = [self = shared_from_this(), slot, answer = std::move(answer)](
+                  storage::JourneyAppend ended, const absl::Status& status) mutable {
     self->claim_.journey->EndAppend(ended, status);
-    self->Complete(slot, status, {ended.sequence, 0, std::nullopt, std::move(ended.step)});
+    answer.resend_from = ended.resend_from;
+    answer.step = std::move(ended.step);
+    self->Complete(slot, status, std::move(answer));
   };
   absl::Status status = context_.queue->Submit(std::move(append), std::move(done));
   if (!status.ok()) {
@@ -176,10 +188,12 @@ void RecordingSession::Deliver(Slot slot) {
     listener_.end(slot.status);
     return;
   }
-  if (slot.answer.sequence) {
-    durable_next_ = std::max(durable_next_, *slot.answer.sequence + 1);
+  if (slot.answer.sequence && *slot.answer.sequence >= durable_next_) {
+    durable_next_ = *slot.answer.sequence + 1;
+    durable_resend_from_ = slot.answer.resend_from;
   }
   slot.answer.next_sequence = durable_next_;
+  slot.answer.resend_from = durable_resend_from_;
   listener_.answer(std::move(slot.answer));
 }
 

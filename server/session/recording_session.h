@@ -24,9 +24,13 @@ struct RecordingAnswer {
   std::optional<std::int64_t> sequence;
   // First that is not durable.
   std::int64_t next_sequence = 0;
-  // First answer only.
-  std::optional<std::int64_t> resend_from;
+  // What to send again after a broken link, before next_sequence: for frames, the reference.
+  std::int64_t resend_from = 0;
   std::optional<JourneyStep> step;
+  // It was compared with the reference and made no step.
+  bool is_standing = false;
+  // Of the observation; in the first answer, of the last step, if there is one.
+  std::optional<std::int64_t> frame;
 };
 
 // Who is told; calls come one at a time, from those who record and after commits, and must not call
@@ -44,9 +48,10 @@ struct RecordingContext {
 };
 
 // Observations are numbered by the client. One that is durable already is accepted and stores
-// nothing; from `resend_from` on they rebuild the state of tracking. A gap is OUT_OF_RANGE and says
-// which is due. With frames, a stream that goes on at next_sequence without the look-back has a
-// gap, unless the observation is marked as a break. Record is for one thread at a time.
+// nothing; the reference frame, `resend_from`, rebuilds the state of tracking. A gap is
+// OUT_OF_RANGE and names the expected number. With frames, a stream that goes on at next_sequence
+// without the reference has a gap, unless the observation is marked as a break. Those between the
+// two made no step: they need not be sent again. Record is for one thread at a time.
 class RecordingSession : public std::enable_shared_from_this<RecordingSession> {
  public:
   // Claims the journey; the first answer is given before this returns. INVALID_ARGUMENT (name,
@@ -75,7 +80,7 @@ class RecordingSession : public std::enable_shared_from_this<RecordingSession> {
   absl::Status Process(const Observation& observation, TimePoint now, std::int64_t slot);
   absl::Status CheckDue(const Observation& observation) const;
   absl::Status CheckKind(const Observation& observation);
-  absl::Status Commit(storage::JourneyAppend append, std::int64_t slot);
+  absl::Status Commit(storage::JourneyAppend append, RecordingAnswer answer, std::int64_t slot);
   std::int64_t OpenSlot();
   void Complete(std::int64_t slot, const absl::Status& status, RecordingAnswer answer);
   void Deliver(Slot slot);
@@ -86,7 +91,8 @@ class RecordingSession : public std::enable_shared_from_this<RecordingSession> {
   WriterClaim claim_;
   std::optional<JourneyRecorder> recorder_;
   InputKind kind_ = InputKind::kUnknown;
-  // Next to feed to the recorder, and next to make durable; the first is behind while resending.
+  // Next to feed to the recorder, and next to make durable; the first is the reference until that
+  // was sent again.
   std::int64_t due_ = 0;
   std::int64_t next_ = 0;
 
@@ -97,6 +103,7 @@ class RecordingSession : public std::enable_shared_from_this<RecordingSession> {
   std::int64_t first_slot_ = 0;
   // As of the last answer delivered.
   std::int64_t durable_next_ = 0;
+  std::int64_t durable_resend_from_ = 0;
   bool ended_ = false;
 };
 

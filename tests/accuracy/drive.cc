@@ -24,9 +24,6 @@ Picture PictureOf(const cv::Mat& gray) {
   return {small.begin<std::uint8_t>(), small.end<std::uint8_t>()};
 }
 
-// The frame that the flow of `frame` was tracked from.
-std::int64_t ReferenceOf(const ObservedFlow& /*flow*/, std::int64_t frame) { return frame - 1; }
-
 // Frames in, instants out.
 class Maker {
  public:
@@ -42,16 +39,18 @@ class Maker {
           image.rows,
           {reinterpret_cast<const char*>(image.data), static_cast<std::size_t>(image.total())}};
     }
+    observation.sequence = static_cast<std::int64_t>(drive_.size());
+    const auto reference = flow_.reference_sequence();
     auto flow = flow_.Compute(observation);
     if (!flow.ok()) Fail(std::string(flow.status().message()));
     Instant instant;
     instant.frame = static_cast<std::int64_t>(drive_.size());
     instant.flow = *std::move(flow);
+    if (!instant.flow.makes_step) instant.flow.fields = {};
     for (std::size_t side = 0; side < images.size(); ++side) {
       if (instant.flow.fields[side]) instant.pictures[side] = PictureOf(images[side]);
     }
-    instant.reference = std::max<std::int64_t>(
-        0, instant.MakesStep() ? ReferenceOf(instant.flow, instant.frame) : instant.frame - 1);
+    instant.reference = std::max<std::int64_t>(0, reference.value_or(instant.frame - 1));
     places_.push_back(place);
     drive_.push_back(std::move(instant));
   }

@@ -83,6 +83,7 @@ int CornersOf(const std::vector<cv::Mat>& frames) {
   std::size_t vectors = 0;
   for (const cv::Mat& frame : frames) {
     const auto field = tracker.Track(frame);
+    tracker.Advance();
     vectors += field.ok() && *field ? (*field)->vectors.size() : 0;
   }
   return static_cast<int>(vectors / (frames.size() - 1));

@@ -56,13 +56,39 @@ TEST(CameraObservationsTest, SendsTheFramesOfBothCameras) {
   EXPECT_NE((*first)->left().frame().data(), (*first)->right().frame().data());
 }
 
-TEST(CameraObservationsTest, FlowHasOneObservationLessThanFrames) {
+TEST(CameraObservationsTest, FlowHasTheFramesThatMakeAStep) {
   auto frames = Open(kScene, "", false);
   auto flow = Open(kScene, "", true);
   const auto frame_count = frames.size();
   EXPECT_EQ(static_cast<std::int64_t>(All(frames).size()), frame_count);
-  EXPECT_EQ(flow.size(), frame_count - 1);
+  EXPECT_EQ(flow.size(), frame_count);
   EXPECT_EQ(static_cast<std::int64_t>(All(flow).size()), frame_count - 1);
+}
+
+// 5 mm a frame.
+TEST(CameraObservationsTest, FlowOfASlowRobotNamesTheFrameAndGoesOnFromIt) {
+  constexpr char kSlow[] = "sim:street,length=1,speed=1,fps=60";
+  auto observations = Open(kSlow, "", true);
+  std::vector<v1::Observation> all;
+  for (auto next = observations.Next(); next.ok() && *next; next = observations.Next()) {
+    all.push_back(**next);
+  }
+  ASSERT_GE(all.size(), 6U);
+  EXPECT_LT(static_cast<std::int64_t>(all.size()), observations.size() / 2);
+  for (std::size_t i = 1; i < all.size(); ++i) {
+    EXPECT_EQ(all[i].sequence(), static_cast<std::int64_t>(i));
+    EXPECT_GT(all[i].frame(), all[i - 1].frame());
+  }
+  for (const std::size_t from : {1U, 2U, 5U}) {
+    // By the frame of the step before, as the server tells it; and without it.
+    for (const bool is_told : {true, false}) {
+      if (is_told) observations.set_last_frame(all[from - 1].frame());
+      ASSERT_TRUE(observations.Seek(static_cast<std::int64_t>(from)));
+      const auto next = observations.Next();
+      ASSERT_THAT(next, IsOk());
+      EXPECT_EQ((*next)->SerializeAsString(), all[from].SerializeAsString()) << from;
+    }
+  }
 }
 
 TEST(CameraObservationsTest, SendsTheFlowOfTheCameraThatIsThere) {
@@ -108,7 +134,8 @@ TEST(CameraObservationsTest, ALiveCameraGoesOnWithABreak) {
     const auto first = observations.Next();
     const auto second = observations.Next();
     EXPECT_EQ((*first)->sequence(), 17);
-    EXPECT_TRUE((*first)->break_before());
+    // No flow spans the break.
+    EXPECT_EQ((*first)->break_before(), !send_flow);
     EXPECT_EQ((*first)->capture_time().nanos(), 7);
     EXPECT_EQ((*second)->sequence(), 18);
     EXPECT_FALSE((*second)->break_before());

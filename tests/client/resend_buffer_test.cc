@@ -62,6 +62,42 @@ TEST(ResendBufferTest, ALiveStreamThatLostWhatIsDueSaysSo) {
               StatusIs(absl::StatusCode::kDataLoss, HasSubstr("needs observation 1")));
 }
 
+TEST(ResendBufferTest, KeepsTheReferenceAndDropsThoseBetween) {
+  NumberedStream stream(200, /*live=*/true);
+  ResendBuffer buffer(&stream, 0);
+  Send(buffer, 100);
+  buffer.Acknowledge(90, 7);
+  ASSERT_THAT(buffer.Rewind(7, 90), IsOk());
+  EXPECT_EQ(NextSequence(buffer), 7);
+  EXPECT_EQ(NextSequence(buffer), 90);
+  Send(buffer, 9);
+  EXPECT_EQ(NextSequence(buffer), 100);
+  EXPECT_TRUE(stream.seeks().empty());
+}
+
+// The acknowledgement of a later reference was lost.
+TEST(ResendBufferTest, GoesOnFromAReferenceThatItHasNotHeardOf) {
+  NumberedStream stream(200, /*live=*/true);
+  ResendBuffer buffer(&stream, 0);
+  Send(buffer, 100);
+  buffer.Acknowledge(90, 7);
+  buffer.Acknowledge(98, 95);
+  ASSERT_THAT(buffer.Rewind(95, 98), IsOk());
+  EXPECT_EQ(NextSequence(buffer), 95);
+  EXPECT_EQ(NextSequence(buffer), 98);
+}
+
+TEST(ResendBufferTest, WhatIsBeingSentAgainIsNotDropped) {
+  NumberedStream stream(200, /*live=*/true);
+  ResendBuffer buffer(&stream, 0);
+  Send(buffer, 10);
+  buffer.Acknowledge(4, 3);
+  ASSERT_THAT(buffer.Rewind(3, 4), IsOk());
+  EXPECT_EQ(NextSequence(buffer), 3);
+  buffer.Acknowledge(8, 3);
+  EXPECT_EQ(NextSequence(buffer), 4);
+}
+
 TEST(ResendBufferTest, KeepsNoMoreThanItIsTold) {
   NumberedStream stream(1000);
   ResendBuffer buffer(&stream, 4);

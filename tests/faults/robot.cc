@@ -64,6 +64,7 @@ class Timed final : public client::ObservationStream {
     }
     return next;
   }
+  void set_last_frame(std::int64_t frame) override { stream_->set_last_frame(frame); }
   bool Seek(std::int64_t sequence) override { return stream_->Seek(sequence); }
   void ContinueAt(std::int64_t sequence) override { stream_->ContinueAt(sequence); }
 

@@ -39,8 +39,9 @@ TEST_F(CliJsonTest, RecordPrintsOneLineAnObservation) {
   ASSERT_GT(lines.size(), 20U);
   for (std::size_t i = 0; i < lines.size(); ++i) {
     EXPECT_THAT(Keys(ran.lines[i]),
-                ElementsAre("sequence", "next_sequence", "step", "motion", "landmarks"));
+                ElementsAre("sequence", "next_sequence", "frame", "step", "motion", "landmarks"));
     EXPECT_EQ(lines[i]["sequence"], i);
+    EXPECT_EQ(lines[i]["frame"], i);
     EXPECT_GE(lines[i]["next_sequence"], i + 1);
     if (i == 0) {
       EXPECT_TRUE(lines[i]["step"].is_null());
@@ -60,10 +61,12 @@ TEST_F(CliJsonTest, LocalizePrintsOneLineAnObservation) {
   const auto lines = ran.Json();
   ASSERT_GT(lines.size(), 15U);
   for (std::size_t i = 0; i < lines.size(); ++i) {
-    EXPECT_THAT(Keys(ran.lines[i]), ElementsAre("sequence", "outcome", "motion", "journey", "step",
-                                                "probability", "interval", "progress_home",
-                                                "direction", "landmark", "similarity", "matches"));
+    EXPECT_THAT(Keys(ran.lines[i]),
+                ElementsAre("sequence", "frame", "outcome", "motion", "journey", "step",
+                            "step_frame", "probability", "interval", "progress_home", "direction",
+                            "landmark", "similarity", "matches"));
     EXPECT_EQ(lines[i]["sequence"], i);
+    EXPECT_EQ(lines[i]["frame"], i);
   }
   EXPECT_TRUE(lines[0]["step"].is_null());
   EXPECT_TRUE(lines[0]["interval"].is_null());
@@ -71,6 +74,7 @@ TEST_F(CliJsonTest, LocalizePrintsOneLineAnObservation) {
       lines, [](const nlohmann::json& line) { return line["step"].is_number_integer(); });
   ASSERT_NE(placed, lines.end());
   EXPECT_EQ((*placed)["interval"].size(), 2U);
+  EXPECT_EQ((*placed)["step_frame"], (*placed)["step"].get<std::int64_t>() + 1);
 }
 
 TEST_F(CliJsonTest, LocalizeOfFlowHasOneLineLess) {
@@ -87,6 +91,7 @@ TEST_F(CliJsonTest, LocalizeOfFlowHasOneLineLess) {
   const auto by_flow = Homing(flow).Json();
   ASSERT_EQ(by_frames.size(), by_flow.size() + 1);
   for (std::size_t i = 0; i < by_flow.size(); ++i) {
+    EXPECT_EQ(by_frames[i + 1]["frame"], by_flow[i]["frame"]) << i;
     EXPECT_EQ(by_frames[i + 1]["step"], by_flow[i]["step"]) << i;
     EXPECT_EQ(by_frames[i + 1]["probability"], by_flow[i]["probability"]) << i;
     EXPECT_EQ(by_frames[i + 1]["matches"], by_flow[i]["matches"]) << i;

@@ -91,6 +91,7 @@ TEST_F(LifecycleTest, FramesAndTheFlowVectorsOfThemGiveTheSameFileByteForByte) {
       // On the robot a step has the time of its later frame.
       Observation sent;
       sent.sequence = i - 1;
+      sent.frame = i;
       sent.views = {*computed->fields[0], *computed->fields[1]};
       vectors.Record(sent);
     }
@@ -109,6 +110,7 @@ TEST_F(LifecycleTest, FramesAndTheFlowVectorsOfThemGiveTheSameFileByteForByte) {
     lists.push_back(response.SerializeAsString());
   }
   EXPECT_EQ(lists[0], lists[1]);
+  EXPECT_EQ(Export(), Export("robots/r/journeys/flow"));
 }
 
 TEST_F(LifecycleTest, AfterARestartTheRecordingGoesOnToTheSameFile) {

@@ -6,6 +6,7 @@
 
 #include <fstream>
 #include <sstream>
+#include <tuple>
 
 #include "absl/strings/escaping.h"
 #include "homing/landmark/profile_code.h"
@@ -94,11 +95,32 @@ TEST(Schema, FlowProfilesOfAnOlderVersionStay) {
   EXPECT_TRUE(SameMap(*map, MapOf(OddSettings(), steps)));
 }
 
+// Each frame but the first made a step, and each field of flow vectors.
+TEST(Schema, StepsOfAnOlderVersionKeepTheFrameThatMadeThem) {
+  for (const auto& [input, first, resend_from] :
+       {std::tuple("FRAMES", 1, 11), std::tuple("FLOW_VECTORS", 0, 12),
+        std::tuple("UNKNOWN", 1, 11)}) {
+    const TemporaryFolder folder;
+    const std::string path = folder.File("homing.db");
+    Execute(path, ReadText(HOMING_SCHEMA_DIR "/v3.sql"));
+    Execute(path, std::string("UPDATE journeys SET next_sequence = 12, input = '") + input + "'");
+    // A step without a row, as those that saw nothing had none; and the last one.
+    Execute(path, "DELETE FROM steps WHERE step IN (3, 11)");
+    auto store = OpenOrDie(folder.Database());
+    const auto tail = store->LoadTail("robots/old/journeys/1");
+    ASSERT_THAT(tail, IsOk());
+    EXPECT_EQ(tail->last_sequence, first + 11);
+    EXPECT_EQ(store->GetJourney("robots/old/journeys/1")->resend_from, resend_from);
+    EXPECT_EQ(Ask(path, "SELECT min(sequence - step) || ' ' || max(sequence - step) FROM steps"),
+              std::to_string(first) + " " + std::to_string(first));
+  }
+}
+
 TEST(Schema, ANewFileHasTheVersionAndTheMarkOfThisProgram) {
   const TemporaryFolder folder;
   OpenOrDie(folder.Database());
   const std::string path = folder.File("homing.db");
-  EXPECT_EQ(Ask(path, "PRAGMA user_version"), "3");
+  EXPECT_EQ(Ask(path, "PRAGMA user_version"), "4");
   EXPECT_EQ(Ask(path, "PRAGMA application_id"), std::to_string(0x484F4D49));
   EXPECT_EQ(Ask(path, "PRAGMA journal_mode"), "wal");
 }
@@ -107,12 +129,12 @@ TEST(Schema, ANewerVersionIsRefusedAndLeftAsItIs) {
   const TemporaryFolder folder;
   const std::string path = folder.File("homing.db");
   OpenOrDie(folder.Database());
-  Execute(path, "PRAGMA user_version=4");
+  Execute(path, "PRAGMA user_version=5");
   StoreOptions options;
   options.url = folder.Database();
   EXPECT_THAT(OpenJourneyStore(options), StatusIs(absl::StatusCode::kFailedPrecondition,
-                                                  HasSubstr("version is 4, newer than")));
-  EXPECT_EQ(Ask(path, "PRAGMA user_version"), "4");
+                                                  HasSubstr("version is 5, newer than")));
+  EXPECT_EQ(Ask(path, "PRAGMA user_version"), "5");
 }
 
 TEST(Schema, AnotherProgramsFileIsRefusedAndLeftAsItIs) {

@@ -8,7 +8,10 @@ namespace homing::test {
 
 // Steps without fingerprints are left out.
 inline JourneyTail TailOf(const JourneyMap& map) {
-  JourneyTail tail{map.step_count(), static_cast<std::int32_t>(map.landmarks().size()), {}};
+  JourneyTail tail{map.step_count(),
+                   static_cast<std::int32_t>(map.landmarks().size()),
+                   map.step_count() == 0 ? -1 : map.sequence(map.step_count() - 1),
+                   {}};
   for (std::int64_t number = FirstTailStep(map.settings(), map.step_count());
        number < map.step_count(); ++number) {
     JourneyStep step;

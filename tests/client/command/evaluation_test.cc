@@ -21,6 +21,7 @@ std::vector<TruePlace> Places(const std::vector<double>& metres) {
 LocalizedAnswer Answer(std::int64_t sequence, std::optional<std::int64_t> step) {
   LocalizedAnswer answer;
   answer.sequence = sequence;
+  answer.frame = sequence;
   answer.step = step;
   return answer;
 }
@@ -53,13 +54,16 @@ TEST(EvaluationTest, ReadsAnswersWithNullSteps) {
   std::istringstream file(
       R"({"sequence":0,"outcome":"AMBIGUOUS","motion":"MOVING","step":null,"probability":0,"similarity":null})"
       "\n"
-      R"({"sequence":1,"outcome":"MATCH","motion":"MOVING","step":7,"probability":0.93,"landmark":2,"similarity":0.5})"
+      R"({"sequence":1,"frame":3,"outcome":"MATCH","motion":"MOVING","step":7,"step_frame":9,"probability":0.93,"landmark":2,"similarity":0.5})"
       "\n");
   const auto answers = ReadAnswers(file, "home.json");
   ASSERT_THAT(answers, IsOk());
   ASSERT_EQ(answers->size(), 2U);
   EXPECT_FALSE((*answers)[0].step.has_value());
+  EXPECT_EQ((*answers)[0].frame, 0);
   EXPECT_EQ((*answers)[1].step, 7);
+  EXPECT_EQ((*answers)[1].frame, 3);
+  EXPECT_EQ((*answers)[1].step_frame, 9);
   EXPECT_EQ((*answers)[1].landmark, 2);
   EXPECT_DOUBLE_EQ((*answers)[1].probability, 0.93);
 }
@@ -70,23 +74,25 @@ TEST(EvaluationTest, NamesTheAnswerThatIsNoJson) {
               StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("home.json, line 2")));
 }
 
-TEST(EvaluationTest, PlacesAStepInTheMiddleOfItsFrames) {
+TEST(EvaluationTest, PlacesAFrameInTheMiddleBetweenItAndTheOneBefore) {
   const auto truth = Places({0, 1, 3});
-  EXPECT_EQ(PlaceOfStep(truth, 0), 0.5);
-  EXPECT_EQ(PlaceOfStep(truth, 1), 2.0);
-  EXPECT_FALSE(PlaceOfStep(truth, 2).has_value());
-  EXPECT_FALSE(PlaceOfStep(truth, -1).has_value());
+  EXPECT_EQ(PlaceOfFrame(truth, 1), 0.5);
+  EXPECT_EQ(PlaceOfFrame(truth, 2), 2.0);
+  EXPECT_FALSE(PlaceOfFrame(truth, 3).has_value());
+  EXPECT_FALSE(PlaceOfFrame(truth, 0).has_value());
 }
 
-// With frames, answer n is the step from home frame n - 1 to n; with flow it is n to n + 1.
-TEST(EvaluationTest, NumbersFramesAndFlowDifferently) {
+TEST(EvaluationTest, ComparesTheFramesOfTheAnswerAndOfTheStep) {
   const auto outbound = Places({0, 1, 2, 3});
   const auto home = Places({3, 2, 1, 0});
-  const auto frames = Evaluate({Answer(1, 2)}, outbound, home, false);
-  EXPECT_EQ(frames[0].true_m, 2.5);
-  EXPECT_EQ(frames[0].error_m(), 0.0);
-  const auto flow = Evaluate({Answer(0, 2)}, outbound, home, true);
-  EXPECT_EQ(flow[0].error_m(), 0.0);
+  // Lines of earlier versions name no frame of the step: it is the one after.
+  EXPECT_EQ(Evaluate({Answer(1, 2)}, outbound, home)[0].error_m(), 0.0);
+  LocalizedAnswer answer = Answer(0, 1);
+  answer.frame = 1;
+  answer.step_frame = 3;
+  const auto places = Evaluate({answer}, outbound, home);
+  EXPECT_EQ(places[0].true_m, 2.5);
+  EXPECT_EQ(places[0].error_m(), 0.0);
 }
 
 TEST(EvaluationTest, CountsOnlyAfterTheFirstMetresAndCountsTheLostAsWrong) {

@@ -33,6 +33,7 @@ std::vector<SeenLandmark> SeenAt(const Simulator& simulator, double t_s, Side ca
   FlowTracker tracker{FlowOptions()};
   const auto frame = static_cast<std::int64_t>(t_s * kPaperFps + 0.5);
   EXPECT_THAT(tracker.Track(simulator.RenderCamera(frame - 1, camera)), IsOk());
+  tracker.Advance();
   const auto field = tracker.Track(simulator.RenderCamera(frame, camera));
   EXPECT_THAT(field, IsOk());
   return FindLandmarks(Rectify(field.value().value(), Camera()), LandmarkOptions());

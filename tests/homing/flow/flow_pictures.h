@@ -51,6 +51,7 @@ inline FlowField FlowOf(const cv::Mat& before, const cv::Mat& now,
                         const FlowOptions& options = {}) {
   FlowTracker tracker(options);
   (void)tracker.Track(before).value();
+  tracker.Advance();
   return tracker.Track(now).value().value();
 }
 

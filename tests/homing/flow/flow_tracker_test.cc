@@ -89,9 +89,23 @@ TEST(FlowTrackerTest, TheFirstFrameGivesNoField) {
   EXPECT_FALSE(tracker.Track(TexturePicture(320, 240, 0, 0)).value().has_value());
 }
 
-TEST(FlowTrackerTest, ResetForgetsTheLastFrame) {
+TEST(FlowTrackerTest, TheReferenceStaysUntilItIsAdvanced) {
   FlowTracker tracker({});
   ASSERT_THAT(tracker.Track(TexturePicture(320, 240, 0, 0)), IsOk());
+  tracker.Advance();
+  for (const double moved : {1.0, 2.0, 3.0}) {
+    const auto field = tracker.Track(TexturePicture(320, 240, moved, 0)).value();
+    EXPECT_NEAR(MedianOf(*field, &FlowVector::FlowX), moved, 0.05);
+  }
+  tracker.Advance();
+  const auto field = tracker.Track(TexturePicture(320, 240, 4, 0)).value();
+  EXPECT_NEAR(MedianOf(*field, &FlowVector::FlowX), 1, 0.05);
+}
+
+TEST(FlowTrackerTest, ResetForgetsTheReferenceFrame) {
+  FlowTracker tracker({});
+  ASSERT_THAT(tracker.Track(TexturePicture(320, 240, 0, 0)), IsOk());
+  tracker.Advance();
   tracker.Reset();
   EXPECT_FALSE(tracker.Track(TexturePicture(320, 240, 1, 0)).value().has_value());
 }
@@ -99,6 +113,7 @@ TEST(FlowTrackerTest, ResetForgetsTheLastFrame) {
 TEST(FlowTrackerTest, AnotherSizeIsRefusedAndChangesNothing) {
   FlowTracker tracker({});
   ASSERT_THAT(tracker.Track(TexturePicture(320, 240, 0, 0)), IsOk());
+  tracker.Advance();
   EXPECT_THAT(tracker.Track(TexturePicture(320, 200, 0, 0)),
               StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("320 x 200")));
   const auto field = tracker.Track(TexturePicture(320, 240, 2, 0)).value();
@@ -114,6 +129,7 @@ TEST(FlowTrackerTest, SameFramesGiveTheSameVectorsEvenFromAnEarlierStart) {
   std::vector<FlowVector> last;
   for (const cv::Mat& frame : frames) {
     const auto field = whole.Track(frame).value();
+    whole.Advance();
     last = field.has_value() ? field->vectors : last;
   }
   ASSERT_GT(last.size(), 50U);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 #include <opencv2/core.hpp>
+#include <optional>
 
 #include "tests/homing/flow/flow_pictures.h"
 
@@ -61,53 +62,77 @@ ObservedFlow LeftOf(ObservedFlow flow) {
   return flow;
 }
 
+// As if the flow had been sent.
+Motion MotionOf(ObservedFlow flow, const std::array<Camera, 2>& cameras) {
+  flow.makes_step = HasMoved(flow.fields).value_or(true);
+  return ClassifyMotion(flow, cameras);
+}
+
+TEST(HasMovedTest, NeedsAMedianOfEnoughVectorsOfEitherCamera) {
+  const auto field = [](int still, int moving) {
+    FlowField result{400, 300, {}};
+    for (int i = 0; i < still; ++i) result.vectors.push_back({10, 10, 10.59F, 10});
+    for (int i = 0; i < moving; ++i) result.vectors.push_back({10, 10, 10, 10.61F});
+    return result;
+  };
+  EXPECT_EQ(HasMoved({}), std::nullopt);
+  EXPECT_EQ(HasMoved({field(0, 7), field(7, 0)}), std::nullopt);
+  EXPECT_EQ(HasMoved({field(0, 8), std::nullopt}), true);
+  EXPECT_EQ(HasMoved({field(8, 0), std::nullopt}), false);
+  // The upper one of two in the middle.
+  EXPECT_EQ(HasMoved({field(4, 4), std::nullopt}), true);
+  EXPECT_EQ(HasMoved({field(5, 4), std::nullopt}), false);
+  EXPECT_EQ(HasMoved({field(100, 0), field(3, 20)}), true);
+  EXPECT_EQ(HasMoved({field(100, 0), field(0, 7)}), false);
+}
+
 TEST(ClassifyMotionTest, NoiseAloneIsStanding) {
-  EXPECT_EQ(ClassifyMotion(RobotFlow(0, 0, Street, 0.1), {}), Motion::kStanding);
-  EXPECT_EQ(ClassifyMotion(LeftOf(RobotFlow(0, 0, Street, 0.2)), {}), Motion::kStanding);
+  EXPECT_EQ(MotionOf(RobotFlow(0, 0, Street, 0.1), {}), Motion::kStanding);
+  EXPECT_EQ(MotionOf(LeftOf(RobotFlow(0, 0, Street, 0.2)), {}), Motion::kStanding);
 }
 
 TEST(ClassifyMotionTest, NoVectorsTellNothing) {
-  EXPECT_EQ(ClassifyMotion({}, {}), Motion::kMoving);
+  EXPECT_EQ(MotionOf({}, {}), Motion::kMoving);
   ObservedFlow blank;
   blank.fields[0] = FlowField{320, 240, {}};
-  EXPECT_EQ(ClassifyMotion(blank, {}), Motion::kMoving);
+  EXPECT_EQ(MotionOf(blank, {}), Motion::kMoving);
 }
 
-// Clouds and hills beside an empty road.
-TEST(ClassifyMotionTest, FewVectorsThatDoNotMoveAreNoProofOfStanding) {
-  ObservedFlow flow = RobotFlow(0, 0, FlatWall, 0.1);
-  flow.fields[0]->vectors.resize(11);
-  flow.fields[1]->vectors.resize(7);
+TEST(ClassifyMotionTest, WhatMakesNoStepIsStanding) {
+  ObservedFlow flow = RobotFlow(0.1, 0, Street, 0.1);
+  EXPECT_EQ(ClassifyMotion(flow, {}), Motion::kStanding);
+  flow.makes_step = true;
   EXPECT_EQ(ClassifyMotion(flow, {}), Motion::kMoving);
 }
 
-TEST(ClassifyMotionTest, AFewVectorsThatMoveSpeakAgainstStanding) {
+TEST(ClassifyMotionTest, AFewVectorsAreNoProofOfStandingNorOfMoving) {
   ObservedFlow flow = RobotFlow(0, 0, FlatWall, 0.1);
   flow.fields[1] = FieldOf({-0.2, 0, 0}, FlatWall, 0.1, 2);
   flow.fields[1]->vectors.resize(5);
-  EXPECT_EQ(ClassifyMotion(flow, {}), Motion::kMoving);
-  EXPECT_EQ(ClassifyMotion(LeftOf(flow), {}), Motion::kStanding);
+  EXPECT_EQ(MotionOf(flow, {}), Motion::kStanding);
+  flow.fields[0]->vectors.resize(7);
+  EXPECT_EQ(MotionOf(flow, {}), Motion::kMoving);
 }
 
 TEST(ClassifyMotionTest, OnePixelAStepIsMoving) {
   const double metres = 4 / kFocal;
-  EXPECT_EQ(ClassifyMotion(RobotFlow(metres, 0, FlatWall, 0.1), {}), Motion::kMoving);
-  EXPECT_EQ(ClassifyMotion(LeftOf(RobotFlow(metres, 0, FlatWall, 0.1)), {}), Motion::kMoving);
+  EXPECT_EQ(MotionOf(RobotFlow(metres, 0, FlatWall, 0.1), {}), Motion::kMoving);
+  EXPECT_EQ(MotionOf(LeftOf(RobotFlow(metres, 0, FlatWall, 0.1)), {}), Motion::kMoving);
 }
 
 TEST(ClassifyMotionTest, DrivingIsMovingAtAnySpeedAndPastAnything) {
   for (const double metres : {0.02, 0.1, 0.3, -0.2}) {
     for (const Depth& depth : {Depth(FlatWall), Depth(Street)}) {
-      EXPECT_EQ(ClassifyMotion(RobotFlow(metres, 0, depth, 0.1), {}), Motion::kMoving);
-      EXPECT_EQ(ClassifyMotion(LeftOf(RobotFlow(metres, 0, depth, 0.1)), {}), Motion::kMoving);
+      EXPECT_EQ(MotionOf(RobotFlow(metres, 0, depth, 0.1), {}), Motion::kMoving);
+      EXPECT_EQ(MotionOf(LeftOf(RobotFlow(metres, 0, depth, 0.1)), {}), Motion::kMoving);
     }
   }
 }
 
 TEST(ClassifyMotionTest, ATurnOnTheSpotIsTurning) {
   for (const double pan : {0.01, 0.05, -0.1}) {
-    EXPECT_EQ(ClassifyMotion(RobotFlow(0, pan, Street, 0.1), {}), Motion::kTurning);
-    EXPECT_EQ(ClassifyMotion(LeftOf(RobotFlow(0, pan, Street, 0.1)), {}), Motion::kTurning);
+    EXPECT_EQ(MotionOf(RobotFlow(0, pan, Street, 0.1), {}), Motion::kTurning);
+    EXPECT_EQ(MotionOf(LeftOf(RobotFlow(0, pan, Street, 0.1)), {}), Motion::kTurning);
   }
 }
 
@@ -117,29 +142,29 @@ TEST(ClassifyMotionTest, SomeWrongVectorsDoNotHideATurn) {
     flow.fields[0]->vectors[10 * i].end_x -= 15;
     flow.fields[1]->vectors[10 * i].end_y += 9;
   }
-  EXPECT_EQ(ClassifyMotion(flow, {}), Motion::kTurning);
+  EXPECT_EQ(MotionOf(flow, {}), Motion::kTurning);
 }
 
 TEST(ClassifyMotionTest, ACurveIsMoving) {
-  EXPECT_EQ(ClassifyMotion(RobotFlow(0.1, 0.01, Street, 0.1), {}), Motion::kMoving);
-  EXPECT_EQ(ClassifyMotion(LeftOf(RobotFlow(0.1, 0.01, FlatWall, 0.1)), {}), Motion::kMoving);
+  EXPECT_EQ(MotionOf(RobotFlow(0.1, 0.01, Street, 0.1), {}), Motion::kMoving);
+  EXPECT_EQ(MotionOf(LeftOf(RobotFlow(0.1, 0.01, FlatWall, 0.1)), {}), Motion::kMoving);
 }
 
 TEST(ClassifyMotionTest, AForwardLookingCameraThatDrivesIsMoving) {
   ObservedFlow flow;
   flow.fields[0] = FieldOf({0, 0.15, 0}, Street, 0.1, 3);
-  EXPECT_EQ(ClassifyMotion(flow, {}), Motion::kMoving);
+  EXPECT_EQ(MotionOf(flow, {}), Motion::kMoving);
   flow.fields[0] = FieldOf({0, 0.15, 0.01}, Street, 0.1, 4);
-  EXPECT_EQ(ClassifyMotion(flow, {}), Motion::kMoving);
+  EXPECT_EQ(MotionOf(flow, {}), Motion::kMoving);
 }
 
 TEST(ClassifyMotionTest, ACameraThatSeesNothingLeavesItToTheOther) {
   ObservedFlow flow = RobotFlow(0.1, 0, Street, 0.1);
   flow.fields[1]->vectors.resize(3);
-  EXPECT_EQ(ClassifyMotion(flow, {}), Motion::kMoving);
+  EXPECT_EQ(MotionOf(flow, {}), Motion::kMoving);
   flow = RobotFlow(0, 0.05, Street, 0.1);
   flow.fields[1]->vectors.clear();
-  EXPECT_EQ(ClassifyMotion(flow, {}), Motion::kTurning);
+  EXPECT_EQ(MotionOf(flow, {}), Motion::kTurning);
 }
 
 class StandingNoiseTest : public ::testing::TestWithParam<std::pair<int, double>> {};
@@ -153,7 +178,7 @@ TEST_P(StandingNoiseTest, IsStanding) {
     flow.fields[0] = FlowOf(Exposed(picture, 0.8, sigma, 2 * seed + 1),
                             Exposed(picture, 0.8, sigma, 2 * seed + 2));
     ASSERT_GT(flow.fields[0]->vectors.size(), 20U);
-    EXPECT_EQ(ClassifyMotion(flow, {}), Motion::kStanding);
+    EXPECT_EQ(MotionOf(flow, {}), Motion::kStanding);
   }
 }
 

@@ -4,8 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <opencv2/core.hpp>
+#include <optional>
 #include <string>
+#include <vector>
 
+#include "homing/flow/median.h"
 #include "tests/homing/flow/flow_pictures.h"
 #include "tests/support/status_matchers.h"
 
@@ -17,7 +21,8 @@ using ::testing::HasSubstr;
 // Frame `index` of a drive; it owns the bytes that the observation shows.
 struct Moment {
   cv::Mat image;
-  explicit Moment(int index, int width = 160) : image(TexturePicture(width, 120, 1.5 * index, 0)) {}
+  explicit Moment(double index, int width = 160)
+      : image(TexturePicture(width, 120, 1.5 * index, 0)) {}
   Frame frame() const {
     return {FrameEncoding::kGray8,
             image.cols,
@@ -43,16 +48,130 @@ TEST(ObservationFlowTest, TheSecondFrameGivesFlowOfBothCameras) {
   EXPECT_FALSE(second.fields[1]->vectors.empty());
 }
 
-TEST(ObservationFlowTest, AnAbsentCameraGivesNoFlowThenNorAtItsNextFrame) {
+TEST(ObservationFlowTest, ACameraAbsentAtAStepGivesNoFlowUntilTheNext) {
   ObservationFlow flow({});
   ASSERT_THAT(flow.Compute(Both(Moment(0), Moment(0))), IsOk());
   const ObservedFlow absent = flow.Compute(LeftOnly(Moment(1))).value();
+  EXPECT_TRUE(absent.makes_step);
   EXPECT_TRUE(absent.fields[0].has_value());
   EXPECT_FALSE(absent.fields[1].has_value());
   const ObservedFlow back = flow.Compute(Both(Moment(2), Moment(2))).value();
   EXPECT_TRUE(back.fields[0].has_value());
   EXPECT_FALSE(back.fields[1].has_value());
   EXPECT_TRUE(flow.Compute(Both(Moment(3), Moment(3))).value().fields[1].has_value());
+}
+
+double MedianFlow(const std::optional<FlowField>& field) {
+  std::vector<float> lengths;
+  for (const FlowVector& v : field->vectors) lengths.push_back(static_cast<float>(v.Length()));
+  return double{Median(lengths)};
+}
+
+Observation Numbered(std::int64_t sequence, Observation observation) {
+  observation.sequence = sequence;
+  return observation;
+}
+
+TEST(ObservationFlowTest, TheReferenceStaysUntilTheFlowIsMeasurable) {
+  ObservationFlow flow({});
+  const Moment start(0);
+  ASSERT_THAT(flow.Compute(Numbered(0, Both(start, start))), IsOk());
+  // 0.06 px an observation: a step takes 0.24 px.
+  int steps = 0;
+  for (std::int64_t i = 1; i <= 20; ++i) {
+    const Moment now(0.04 * static_cast<double>(i));
+    const ObservedFlow seen = flow.Compute(Numbered(i, Both(now, now))).value();
+    ASSERT_TRUE(seen.fields[0].has_value() && seen.fields[1].has_value());
+    if (seen.makes_step) {
+      ++steps;
+      EXPECT_EQ(flow.reference_sequence(), i);
+      EXPECT_NEAR(MedianFlow(seen.fields[0]), 0.27, 0.05);
+    }
+  }
+  EXPECT_GE(steps, 4);
+  EXPECT_LE(steps, 5);
+}
+
+TEST(ObservationFlowTest, RepeatedFramesMakeNoStepAndChangeNoField) {
+  ObservationFlow flow({});
+  const Moment first(0);
+  const Moment second(1);
+  EXPECT_FALSE(flow.Compute(Numbered(0, Both(first, first))).value().makes_step);
+  for (std::int64_t i = 1; i < 5; ++i) {
+    EXPECT_FALSE(flow.Compute(Numbered(i, Both(first, first))).value().makes_step);
+    EXPECT_EQ(flow.reference_sequence(), 0);
+  }
+  ObservationFlow direct({});
+  ASSERT_THAT(direct.Compute(Both(first, first)), IsOk());
+  const ObservedFlow expected = direct.Compute(Both(second, second)).value();
+  const ObservedFlow seen = flow.Compute(Numbered(5, Both(second, second))).value();
+  EXPECT_TRUE(seen.makes_step);
+  EXPECT_EQ(seen.fields[0]->vectors, expected.fields[0]->vectors);
+  EXPECT_EQ(seen.fields[1]->vectors, expected.fields[1]->vectors);
+}
+
+TEST(ObservationFlowTest, ACameraAbsentOnlyWhereNoStepIsMadeLosesNothing) {
+  ObservationFlow flow({});
+  const Moment first(0);
+  ASSERT_THAT(flow.Compute(Both(first, first)), IsOk());
+  EXPECT_FALSE(flow.Compute(LeftOnly(first)).value().makes_step);
+  const Moment second(1);
+  const ObservedFlow back = flow.Compute(Both(second, second)).value();
+  EXPECT_TRUE(back.makes_step);
+  ASSERT_TRUE(back.fields[1].has_value());
+  EXPECT_NEAR(MedianFlow(back.fields[1]), 1.5, 0.1);
+}
+
+TEST(ObservationFlowTest, OneCameraThatMovesIsEnoughForBoth) {
+  ObservationFlow flow({});
+  const Moment first(0);
+  const Moment second(1);
+  ASSERT_THAT(flow.Compute(Both(first, first)), IsOk());
+  EXPECT_TRUE(flow.Compute(Numbered(1, Both(first, second))).value().makes_step);
+  EXPECT_EQ(flow.reference_sequence(), 1);
+}
+
+// Another scene: nothing of the reference is found again.
+TEST(ObservationFlowTest, LostTrackingMakesAStep) {
+  ObservationFlow flow({});
+  const Moment here(0);
+  Moment elsewhere(0);
+  elsewhere.image = TexturePicture(160, 120, 1003, 777, 0.7);
+  ASSERT_THAT(flow.Compute(LeftOnly(here)), IsOk());
+  const ObservedFlow lost = flow.Compute(Numbered(1, LeftOnly(elsewhere))).value();
+  ASSERT_LT(lost.fields[0]->vectors.size(), 8U);
+  EXPECT_TRUE(lost.makes_step);
+  EXPECT_EQ(flow.reference_sequence(), 1);
+}
+
+TEST(ObservationFlowTest, DarkFramesMakeNoStepAndTheReferenceMovesOn) {
+  ObservationFlow flow({});
+  const Moment bright(0);
+  Moment dark(0);
+  dark.image = cv::Scalar(3);
+  ASSERT_THAT(flow.Compute(LeftOnly(bright)), IsOk());
+  for (std::int64_t i = 1; i < 4; ++i) {
+    EXPECT_FALSE(flow.Compute(Numbered(i, LeftOnly(dark))).value().makes_step);
+    EXPECT_EQ(flow.reference_sequence(), i);
+  }
+  const Moment second(1);
+  EXPECT_FALSE(flow.Compute(Numbered(4, LeftOnly(second))).value().makes_step);
+  EXPECT_EQ(flow.reference_sequence(), 4);
+  EXPECT_TRUE(flow.Compute(Numbered(5, LeftOnly(Moment(2)))).value().makes_step);
+}
+
+// The last camera of the reference is lost, and the other goes on alone.
+TEST(ObservationFlowTest, TheReferenceMovesOnWhenNoCameraHasOne) {
+  ObservationFlow flow({});
+  const Moment first(0);
+  ASSERT_THAT(flow.Compute(LeftOnly(first)), IsOk());
+  for (int i = 1; i < 4; ++i) {
+    const Moment now(i);
+    Observation right{i, 0, false, {std::monostate(), now.frame()}};
+    const ObservedFlow seen = flow.Compute(right).value();
+    EXPECT_EQ(seen.makes_step, i > 1);
+    EXPECT_EQ(flow.reference_sequence(), i);
+  }
 }
 
 TEST(ObservationFlowTest, NoFlowSpansABreak) {
@@ -111,6 +230,20 @@ TEST(ObservationFlowTest, FlowVectorsArePassedOn) {
   ObservationFlow flow({});
   const FlowField field{160, 120, {{1, 2, 3, 4}, {5, 6, 7, 8}}};
   EXPECT_EQ(flow.Compute(OfVectors(field)).value().fields[0]->vectors, field.vectors);
+}
+
+TEST(ObservationFlowTest, FlowVectorsMakeAStepByTheirMedianOrIfThereAreFew) {
+  ObservationFlow flow({});
+  const FlowField still{160, 120, std::vector<FlowVector>(8, {50, 50, 50.1F, 50})};
+  EXPECT_FALSE(flow.Compute(OfVectors(still)).value().makes_step);
+  const FlowField moving{160, 120, std::vector<FlowVector>(8, {50, 50, 51, 50})};
+  EXPECT_TRUE(flow.Compute(OfVectors(moving)).value().makes_step);
+  EXPECT_TRUE(flow.Compute(OfVectors({160, 120, {}})).value().makes_step);
+  Observation broken = OfVectors(moving);
+  broken.break_before = true;
+  const ObservedFlow dropped = flow.Compute(broken).value();
+  EXPECT_FALSE(dropped.makes_step);
+  EXPECT_FALSE(dropped.fields[0].has_value());
 }
 
 struct BadField {

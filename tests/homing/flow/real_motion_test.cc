@@ -15,11 +15,16 @@ struct Tally {
 };
 
 Tally TallyOf(const std::string& sequence, std::size_t count) {
-  FlowTracker tracker({});
+  ObservationFlow tracker({});
   Tally tally;
   for (const cv::Mat& image : ReadImages(RealSequence(sequence), count)) {
-    ObservedFlow flow;
-    flow.fields[0] = tracker.Track(image).value();
+    Observation observation;
+    observation.views[0] =
+        Frame{FrameEncoding::kGray8,
+              image.cols,
+              image.rows,
+              {reinterpret_cast<const char*>(image.data), static_cast<std::size_t>(image.total())}};
+    const ObservedFlow flow = tracker.Compute(observation).value();
     if (flow.fields[0].has_value()) {
       const Motion motion = ClassifyMotion(flow, {});
       ++(motion == Motion::kMoving     ? tally.moving

@@ -71,6 +71,34 @@ TEST(JourneyMapTest, RefusesAStepThatIsThere) {
               StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("step is 20000000")));
 }
 
+TEST(JourneyMapTest, StepsWithoutASequenceFollowTheOneBefore) {
+  JourneyMap map;
+  ASSERT_THAT(map.Append(StepOf(1, {})), IsOk());
+  JourneyStep step = StepOf(4, {});
+  step.sequence = 30;
+  ASSERT_THAT(map.Append(step), IsOk());
+  map.ExtendTo(6);
+  const std::vector<std::int64_t> expected{1, 2, 28, 29, 30, 31};
+  for (std::int64_t i = 0; i < 6; ++i) {
+    EXPECT_EQ(map.sequence(i), expected[static_cast<std::size_t>(i)]) << i;
+  }
+}
+
+TEST(JourneyMapTest, RefusesASequenceThatLeavesNoneForTheStepsBetween) {
+  JourneyMap map;
+  JourneyStep step = StepOf(2, {});
+  step.sequence = 1;
+  EXPECT_THAT(map.Append(step), StatusIs(absl::StatusCode::kInvalidArgument,
+                                         HasSubstr("sequence of step 2 is 1, must be at least 2")));
+  EXPECT_EQ(map.step_count(), 0);
+  step.sequence = 2;
+  ASSERT_THAT(map.Append(step), IsOk());
+  EXPECT_EQ(map.sequence(0), 0);
+  step = StepOf(3, {});
+  step.sequence = 2;
+  EXPECT_THAT(map.Append(step), StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("least 3")));
+}
+
 TEST(JourneyMapTest, RefusesALandmarkThatIsNeitherKnownNorNext) {
   EXPECT_THAT(Refusal(StepOf(1, {Seen(Side::kLeft, 2)})),
               StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("landmark is 2")));

@@ -30,15 +30,16 @@ JourneyMap RecordAll(const std::vector<Observation>& observations) {
   return map;
 }
 
-// Stopped after `cut` observations; another recorder goes on from the map, looking back on as many
-// as it must.
-JourneyMap RecordWithRestart(const std::vector<Observation>& observations, std::size_t cut,
-                             std::size_t look_back) {
-  JourneyMap map =
-      RecordAll({observations.begin(), observations.begin() + static_cast<std::ptrdiff_t>(cut)});
+// Stopped after `cut` observations; another recorder goes on from the map and the reference.
+JourneyMap RecordWithRestart(const std::vector<Observation>& observations, std::size_t cut) {
+  JourneyMap map;
   JourneyRecorder recorder(map.settings());
+  for (std::size_t i = 0; i < cut; ++i) RecordInto(recorder, observations[i], map);
+  const auto resend_from = static_cast<std::size_t>(recorder.resend_from());
+  recorder = JourneyRecorder(map.settings());
   recorder.Resume(test::TailOf(map));
-  for (std::size_t i = cut - std::min(cut, look_back); i < observations.size(); ++i) {
+  if (resend_from < cut) RecordInto(recorder, observations[resend_from], map);
+  for (std::size_t i = cut; i < observations.size(); ++i) {
     RecordInto(recorder, observations[i], map);
   }
   return map;
@@ -52,6 +53,7 @@ void ExpectSame(const JourneyMap& a, const JourneyMap& b) {
     const auto in_a = a.fingerprints(step);
     const auto in_b = b.fingerprints(step);
     EXPECT_TRUE(std::equal(in_a.begin(), in_a.end(), in_b.begin(), in_b.end())) << step;
+    EXPECT_EQ(a.sequence(step), b.sequence(step));
   }
 }
 
@@ -68,12 +70,35 @@ TEST(InputKindTest, IsThatOfTheViews) {
   EXPECT_EQ(InputKindOf(observation).value(), InputKind::kFrames);
 }
 
-TEST(InputKindTest, FirstFrameMakesNoStep) {
-  EXPECT_EQ(StepOf(InputKind::kFrames, 0), std::nullopt);
-  EXPECT_EQ(StepOf(InputKind::kFrames, 5), 4);
-  EXPECT_EQ(StepOf(InputKind::kFlowVectors, 0), 0);
-  EXPECT_EQ(LookBack(InputKind::kFrames), 1);
-  EXPECT_EQ(LookBack(InputKind::kFlowVectors), 0);
+TEST(JourneyRecorderTest, StepsAreNumberedOnAndKeepTheFrameThatMadeThem) {
+  const auto frames = TravellingRobot::WithFrames(6, 3);
+  JourneyRecorder recorder{JourneySettings{}};
+  std::int64_t steps = 0;
+  for (std::int64_t i = 0; i < 18; ++i) {
+    // Each frame comes three times.
+    Observation observation = frames.observations()[static_cast<std::size_t>(i / 3)];
+    observation.sequence = i;
+    const auto step = recorder.Record(observation).value();
+    ASSERT_EQ(step.has_value(), i >= 3 && i % 3 == 0) << i;
+    EXPECT_EQ(recorder.resend_from(), i - i % 3);
+    if (!step) continue;
+    EXPECT_EQ(step->step, steps++);
+    EXPECT_EQ(step->sequence, i);
+  }
+  EXPECT_EQ(steps, 5);
+}
+
+TEST(JourneyRecorderTest, AStepOfFlowVectorsKeepsTheFrameThatTheClientNames) {
+  auto robot = TravellingRobot::WithFlowVectors(3, 3);
+  robot.mutable_observations()[0].frame = 4;
+  robot.mutable_observations()[1].frame = 9;
+  robot.mutable_observations()[2].frame = 9;
+  JourneyRecorder recorder{JourneySettings{}};
+  EXPECT_EQ(recorder.Record(robot.observations()[0]).value()->sequence, 4);
+  EXPECT_EQ(recorder.Record(robot.observations()[1]).value()->sequence, 9);
+  EXPECT_EQ(recorder.resend_from(), 2);
+  EXPECT_THAT(recorder.Record(robot.observations()[2]),
+              StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("frame is 9, must be over")));
 }
 
 TEST(JourneyRecorderTest, RecordsLandmarksOfBothSides) {
@@ -95,7 +120,7 @@ TEST(JourneyRecorderTest, ResumedRecordingOfFlowVectorsIsTheUndisturbedOne) {
   const JourneyMap whole = RecordAll(robot.observations());
   for (std::size_t cut = 0; cut <= robot.observations().size(); ++cut) {
     SCOPED_TRACE(cut);
-    ExpectSame(RecordWithRestart(robot.observations(), cut, 0), whole);
+    ExpectSame(RecordWithRestart(robot.observations(), cut), whole);
   }
 }
 
@@ -104,13 +129,33 @@ TEST(JourneyRecorderTest, ResumedRecordingOfFramesIsTheUndisturbedOne) {
   const JourneyMap whole = RecordAll(robot.observations());
   for (std::size_t cut = 0; cut <= robot.observations().size(); ++cut) {
     SCOPED_TRACE(cut);
-    ExpectSame(RecordWithRestart(robot.observations(), cut, 1), whole);
+    ExpectSame(RecordWithRestart(robot.observations(), cut), whole);
+  }
+}
+
+// A robot so slow that the reference is many frames back.
+TEST(JourneyRecorderTest, ResumedRecordingOfASlowRobotIsTheUndisturbedOne) {
+  const auto frames = TravellingRobot::WithFrames(4, 3);
+  std::vector<Observation> slow;
+  for (std::size_t i = 0; i < 28; ++i) {
+    slow.push_back(frames.observations()[i / 7]);
+    slow.back().sequence = static_cast<std::int64_t>(i);
+  }
+  const JourneyMap whole = RecordAll(slow);
+  ASSERT_EQ(whole.step_count(), 3);
+  for (std::size_t cut = 0; cut <= slow.size(); ++cut) {
+    SCOPED_TRACE(cut);
+    ExpectSame(RecordWithRestart(slow, cut), whole);
   }
 }
 
 TEST(JourneyRecorderTest, RepeatsBelowTheMapMakeNoStep) {
   const auto robot = TravellingRobot::WithFrames(10, 3);
-  ExpectSame(RecordWithRestart(robot.observations(), 8, 5), RecordAll(robot.observations()));
+  JourneyMap map = RecordAll({robot.observations().begin(), robot.observations().begin() + 8});
+  JourneyRecorder recorder(map.settings());
+  recorder.Resume(test::TailOf(map));
+  for (std::size_t i = 3; i < 10; ++i) RecordInto(recorder, robot.observations()[i], map);
+  ExpectSame(map, RecordAll(robot.observations()));
 }
 
 TEST(JourneyRecorderTest, OrdersFingerprintsBySideAndPosition) {
@@ -131,20 +176,20 @@ TEST(JourneyRecorderTest, OrdersFingerprintsBySideAndPosition) {
   EXPECT_GT(pairs, 10);
 }
 
-TEST(JourneyRecorderTest, StepAcrossABreakIsEmpty) {
+TEST(JourneyRecorderTest, NoStepSpansABreak) {
   for (auto robot : {TravellingRobot::WithFrames(8, 2), TravellingRobot::WithFlowVectors(8, 2)}) {
     robot.mutable_observations()[5].break_before = true;
     const JourneyMap map = RecordAll(robot.observations());
-    const auto kind = InputKindOf(robot.observations()[0]).value();
-    const std::int64_t broken = *StepOf(kind, 5);
-    EXPECT_TRUE(map.fingerprints(broken).empty());
-    EXPECT_FALSE(map.fingerprints(broken - 1).empty());
-    EXPECT_FALSE(map.fingerprints(broken + 1).empty());
-    EXPECT_EQ(map.step_count(), *StepOf(kind, 7) + 1);
+    const std::int64_t broken =
+        InputKindOf(robot.observations()[0]).value() == InputKind::kFrames ? 4 : 5;
+    EXPECT_EQ(map.sequence(broken - 1), 4);
+    EXPECT_EQ(map.sequence(broken), 6);
+    EXPECT_FALSE(map.fingerprints(broken).empty());
+    EXPECT_EQ(map.step_count(), broken + 2);
   }
 }
 
-TEST(JourneyRecorderTest, StandingAndTurningMakeNoFingerprint) {
+TEST(JourneyRecorderTest, StandingMakesNoStepAndTurningNoFingerprint) {
   auto robot = TravellingRobot::WithFlowVectors(3, 2);
   for (CameraView& view : robot.mutable_observations()[1].views) {
     for (FlowVector& vector : std::get<FlowField>(view).vectors) {
@@ -155,9 +200,7 @@ TEST(JourneyRecorderTest, StandingAndTurningMakeNoFingerprint) {
   robot.mutable_observations()[2].views[1] = robot.observations()[2].views[0];
   JourneyRecorder recorder{JourneySettings{}};
   EXPECT_EQ(recorder.Record(robot.observations()[0]).value()->motion, Motion::kMoving);
-  const JourneyStep standing = recorder.Record(robot.observations()[1]).value().value();
-  EXPECT_EQ(standing.motion, Motion::kStanding);
-  EXPECT_TRUE(standing.fingerprints.empty());
+  EXPECT_EQ(recorder.Record(robot.observations()[1]).value(), std::nullopt);
   const JourneyStep turning = recorder.Record(robot.observations()[2]).value().value();
   EXPECT_EQ(turning.motion, Motion::kTurning);
   EXPECT_TRUE(turning.fingerprints.empty());

@@ -66,6 +66,31 @@ TEST_F(LocalizerTest, FirstFrameTellsNothing) {
   EXPECT_FALSE(answer->landmark.has_value());
 }
 
+// Every frame three times: the answers to the first of each are those without repeats.
+TEST_F(LocalizerTest, AnObservationWithoutAStepLeavesTheBeliefAsItIs) {
+  Localizer once(Same());
+  Localizer thrice(Same());
+  for (const Observation& observation : robot_.observations()) {
+    const auto expected = once.Localize(observation, {&journey_, 1}).value();
+    for (int copy = 0; copy < 3; ++copy) {
+      Observation repeated = observation;
+      repeated.sequence = 3 * observation.sequence + copy;
+      const auto answer = thrice.Localize(repeated, {&journey_, 1}).value();
+      EXPECT_EQ(answer.sequence, repeated.sequence);
+      EXPECT_EQ(answer.position.step, expected.position.step);
+      EXPECT_EQ(answer.position.probability, expected.position.probability);
+      EXPECT_EQ(answer.landmark, expected.landmark);
+      if (copy == 0) {
+        EXPECT_EQ(answer.motion, expected.motion);
+        continue;
+      }
+      EXPECT_EQ(answer.motion, Motion::kStanding);
+      EXPECT_TRUE(answer.has_flow);
+      EXPECT_TRUE(answer.matches.empty());
+    }
+  }
+}
+
 TEST_F(LocalizerTest, LandmarkIsTheBestMatchOfTheInterval) {
   Localizer localizer(Same());
   int told = 0;

@@ -35,6 +35,7 @@ JourneyMap Map(int steps) {
   for (int i = 0; i < steps; ++i) {
     JourneyStep step;
     step.step = i;
+    step.sequence = 3 * i + 5;
     const float x = 100.1F + static_cast<float>(i % 10) * 1.37F;
     // Landmarks of ten steps, left and right; every seventh step is empty.
     if (i % 7 != 6) {
@@ -63,19 +64,20 @@ bool SameMap(const JourneyMap& a, const JourneyMap& b) {
   if (!(a.settings() == b.settings()) || a.step_count() != b.step_count()) return false;
   for (std::int64_t step = 0; step < a.step_count(); ++step) {
     if (!std::ranges::equal(a.fingerprints(step), b.fingerprints(step))) return false;
+    if (a.sequence(step) != b.sequence(step)) return false;
   }
   return a.landmarks() == b.landmarks();
 }
 
 // A file with a right checksum whose message is that of Encode(20) after `change`.
 template <typename Change>
-std::string Forge(Change change) {
+std::string Forge(Change change, char version = 2) {
   const std::string good = Encode(20);
   v1::JourneyMap message;
   EXPECT_TRUE(message.ParseFromString(
       good.substr(kMagicBytes, good.size() - kMagicBytes - kChecksumBytes)));
   change(message);
-  std::string bytes = good.substr(0, kMagicBytes) + message.SerializeAsString();
+  std::string bytes = good.substr(0, kMagicBytes - 1) + version + message.SerializeAsString();
   const uLong crc = crc32_z(0, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size());
   for (int shift = 0; shift < 32; shift += 8) bytes.push_back(static_cast<char>(crc >> shift));
   return bytes;
@@ -96,7 +98,7 @@ TEST(JourneyArchive, ReadsBackTheVeryMapAndWritesTheVeryBytes) {
     EXPECT_TRUE(journey->record.settings == map.settings());
     EXPECT_EQ(journey->record.start_time_ns, Record().start_time_ns);
     EXPECT_EQ(journey->record.end_time_ns, Record().end_time_ns);
-    EXPECT_EQ(journey->record.next_sequence, steps);
+    EXPECT_EQ(journey->record.next_sequence, steps == 0 ? 0 : 3 * (steps - 1) + 6);
     EXPECT_EQ(EncodeJourney(journey->record, journey->map).value(), *bytes);
   }
 }
@@ -150,12 +152,31 @@ TEST(JourneyArchive, RefusesMoreThanItsLimit) {
   ExpectRefused(huge, "at most 268435456");
 }
 
+TEST(JourneyArchive, ReadsVersion1WhereEachFrameButTheFirstMadeAStep) {
+  const auto without = [](v1::JourneyMap& m) { m.clear_sequences(); };
+  const auto journey = DecodeJourney(Forge(without, 1));
+  ASSERT_THAT(journey, IsOk());
+  ASSERT_EQ(journey->map.step_count(), 20);
+  for (std::int64_t step = 0; step < 20; ++step) EXPECT_EQ(journey->map.sequence(step), step + 1);
+  EXPECT_EQ(EncodeJourney(journey->record, journey->map).value()[kMagicBytes - 1], 2);
+  ExpectRefused(Forge(without, 2), "sequences has 0 entries: must have 20");
+  ExpectRefused(Forge([](v1::JourneyMap&) {}, 1), "sequences has 20 entries: must have 0");
+  ExpectRefused(Forge([](v1::JourneyMap&) {}, 3), "is of version 3: must be 1 to 2");
+}
+
+TEST(JourneyArchive, RefusesSequencesThatDoNotGrow) {
+  ExpectRefused(Forge([](v1::JourneyMap& m) { m.set_sequences(4, 14); }),
+                "sequence of step 4 is 14, must be at least 15");
+  ExpectRefused(Forge([](v1::JourneyMap& m) { m.set_sequences(0, -2); }), "sequence of step 0");
+}
+
 TEST(JourneyArchive, RefusesSizesThatDoNotAgree) {
   ASSERT_THAT(DecodeJourney(Forge([](v1::JourneyMap&) {})), IsOk());
   ExpectRefused(Forge([](v1::JourneyMap& m) { m.set_step_count(1'000'000'000'000); }),
                 "step_count is 1000000000000");
   ExpectRefused(Forge([](v1::JourneyMap& m) { m.set_step_count(-1); }), "step_count is -1");
   ExpectRefused(Forge([](v1::JourneyMap& m) { m.set_step_count(21); }), "must have 21");
+  ExpectRefused(Forge([](v1::JourneyMap& m) { m.add_sequences(99); }), "sequences has 21");
   ExpectRefused(Forge([](v1::JourneyMap& m) { m.set_fingerprints_per_step(0, 4'000'000'000U); }),
                 "landmarks has");
   ExpectRefused(Forge([](v1::JourneyMap& m) { m.add_xs(1); }), "xs has");

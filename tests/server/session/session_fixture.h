@@ -124,6 +124,7 @@ inline void ExpectSameMap(const JourneyMap& a, const JourneyMap& b) {
     const auto x = a.fingerprints(step);
     const auto y = b.fingerprints(step);
     ASSERT_TRUE(std::equal(x.begin(), x.end(), y.begin(), y.end())) << "step " << step;
+    ASSERT_EQ(a.sequence(step), b.sequence(step)) << "step " << step;
   }
 }
 
