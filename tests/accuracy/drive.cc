@@ -50,7 +50,7 @@ class Maker {
     for (std::size_t side = 0; side < images.size(); ++side) {
       if (instant.flow.fields[side]) instant.pictures[side] = PictureOf(images[side]);
     }
-    instant.reference = std::max<std::int64_t>(0, reference.value_or(instant.frame - 1));
+    instant.reference = std::max<std::int64_t>(0, reference);
     places_.push_back(place);
     drive_.push_back(std::move(instant));
   }
