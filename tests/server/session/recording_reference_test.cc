@@ -49,7 +49,7 @@ TEST_F(RecordingReferenceTest, ASlowRobotGoesOnFromItsReferenceManyFramesBack) {
     EXPECT_EQ(first.next_sequence, next);
     const int reference = next == 0 ? 0 : (next - 1) - (next - 1) % kFramesAPlace;
     ASSERT_EQ(first.resend_from, reference);
-    if (reference > 0) EXPECT_EQ(first.frame, reference);
+    EXPECT_EQ(first.frame, reference > 0 ? std::optional<std::int64_t>(reference) : std::nullopt);
     std::size_t sent = 1;
     if (reference < next) {
       session->Record(FrameAt(reference, reference / kFramesAPlace), {});
