@@ -39,6 +39,7 @@ TEST(JsonLineTest, LocalizeHasTheWordsOfTheContract) {
   answer.set_motion(v1::MOTION_MOVING);
   answer.set_journey("robots/R/journeys/J");
   answer.set_step(207);
+  answer.set_step_frame(208);
   answer.set_probability(0.93);
   answer.mutable_interval()->set_first(204);
   answer.mutable_interval()->set_last(210);
