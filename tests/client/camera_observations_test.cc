@@ -70,7 +70,7 @@ TEST(CameraObservationsTest, FlowHasTheFramesThatMakeAStep) {
 
 // 5 mm a frame.
 TEST(CameraObservationsTest, FlowOfASlowRobotNamesTheFrameAndGoesOnFromIt) {
-  constexpr char kSlow[] = "sim:street,length=0.5,speed=1,fps=60";
+  constexpr char kSlow[] = "sim:street,length=1,speed=0.5,fps=60";
   auto observations = Open(kSlow, "", true);
   std::vector<v1::Observation> all;
   for (auto next = observations.Next(); next.ok() && *next; next = observations.Next()) {
