@@ -64,6 +64,7 @@ absl::StatusOr<std::optional<CameraObservations::Instant>> CameraObservations::N
 
 absl::StatusOr<std::optional<Observation>> CameraObservations::NextFlow() {
   while (true) {
+    if (stop_.stop_requested()) return absl::CancelledError("stopped");
     HOMING_ASSIGN_OR_RETURN(const auto instant, NextInstant());
     if (!instant) return std::optional<Observation>();
     Observation frames = ViewFrames(*instant);

@@ -6,7 +6,9 @@
 #include <array>
 #include <memory>
 #include <optional>
+#include <stop_token>
 #include <string>
+#include <utility>
 
 #include "client/frame_source.h"
 #include "client/observation_stream.h"
@@ -31,6 +33,9 @@ class CameraObservations : public ObservationStream {
   bool Seek(std::int64_t sequence) override;
   void ContinueAt(std::int64_t sequence) override;
 
+  // Next is CANCELLED once this is requested, also while nothing moves and no flow is made.
+  void StopAt(std::stop_token stop) { stop_ = std::move(stop); }
+
   // Number of frames of the longer camera, -1 if not known.
   std::int64_t size() const;
 
@@ -52,6 +57,7 @@ class CameraObservations : public ObservationStream {
   // Index of the next frame in the source.
   std::int64_t next_frame_ = 0;
   std::int64_t last_frame_ = -1;
+  std::stop_token stop_;
   bool break_ = false;
 };
 

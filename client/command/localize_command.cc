@@ -81,6 +81,7 @@ absl::Status Localize(const Session& session, const LocalizeFlags& flags) {
   HOMING_ASSIGN_OR_RETURN(const Connection connection, session.Connect());
   JourneyClient journeys(&connection, session.stop);
   HOMING_ASSIGN_OR_RETURN(const auto observations, OpenRobot(flags, journeys, std::move(cameras)));
+  observations->StopAt(session.stop);
   HomingClient client(&connection, [&](const std::string& text) { session.Log(text); });
   Progress progress("localizing", observations->size(), session.json && !session.quiet);
   if (!session.json) HOMING_RETURN_IF_ERROR(session.Print(AnswerHeader()));

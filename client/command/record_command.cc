@@ -80,6 +80,7 @@ absl::Status Record(const Session& session, const RecordFlags& flags) {
                             wire::FromProto(journey.settings().flow(), "journey.settings.flow"));
   }
   CameraObservations observations(std::move(cameras), flow);
+  observations.StopAt(session.stop);
   HOMING_RETURN_IF_ERROR(SendAll(session, connection, flags, observations));
   if (flags.keep_open) {
     HOMING_ASSIGN_OR_RETURN(journey, journeys.Get(flags.journey));

@@ -32,7 +32,10 @@ class LiveCamera : public FrameSource {
  public:
   absl::StatusOr<std::optional<SourceFrame>> Next() override {
     SourceFrame frame{FrameEncoding::kGray8, 64, 48, std::string(64 * 48, '\0'), 7};
-    for (char& pixel : frame.data) pixel = static_cast<char>(state_ = state_ * 1103515245 + 12345);
+    for (char& pixel : frame.data) {
+      state_ = state_ * 1103515245 + 12345;
+      pixel = static_cast<char>(state_ >> 16);
+    }
     return std::make_optional(std::move(frame));
   }
   bool Seek(std::int64_t) override { return false; }
@@ -67,14 +70,14 @@ TEST(CameraObservationsTest, FlowHasTheFramesThatMakeAStep) {
 
 // 5 mm a frame.
 TEST(CameraObservationsTest, FlowOfASlowRobotNamesTheFrameAndGoesOnFromIt) {
-  constexpr char kSlow[] = "sim:street,length=1,speed=1,fps=60";
+  constexpr char kSlow[] = "sim:street,length=1,speed=0.5,fps=60";
   auto observations = Open(kSlow, "", true);
   std::vector<v1::Observation> all;
   for (auto next = observations.Next(); next.ok() && *next; next = observations.Next()) {
     all.push_back(**next);
   }
   ASSERT_GE(all.size(), 6U);
-  EXPECT_LT(static_cast<std::int64_t>(all.size()), observations.size() / 2);
+  EXPECT_LE(static_cast<std::int64_t>(all.size()), observations.size() / 2);
   for (std::size_t i = 1; i < all.size(); ++i) {
     EXPECT_EQ(all[i].sequence(), static_cast<std::int64_t>(i));
     EXPECT_GT(all[i].frame(), all[i - 1].frame());

@@ -92,6 +92,7 @@ TEST_F(LifecycleTest, FramesAndTheFlowVectorsOfThemGiveTheSameFileByteForByte) {
       Observation sent;
       sent.sequence = i - 1;
       sent.frame = i;
+      sent.capture_time_ns = observation.capture_time_ns;
       sent.views = {*computed->fields[0], *computed->fields[1]};
       vectors.Record(sent);
     }

@@ -17,17 +17,19 @@ TEST(JsonLineTest, RecordHasTheWordsOfTheContract) {
   fingerprint.set_x(161.2F);
   fingerprint.set_y(88);
   fingerprint.set_count(94);
-  EXPECT_EQ(ToJson(answer).dump(),
-            R"({"sequence":12,"next_sequence":13,"step":11,"motion":"MOVING","landmarks":)"
-            R"([{"landmark":3,"side":"LEFT","x":161.2,"y":88.0,"count":94}]})");
+  EXPECT_EQ(
+      ToJson(answer).dump(),
+      R"({"sequence":12,"next_sequence":13,"frame":12,"step":11,"motion":"MOVING","landmarks":)"
+      R"([{"landmark":3,"side":"LEFT","x":161.2,"y":88.0,"count":94}]})");
 }
 
 TEST(JsonLineTest, RecordOfTheFirstFrameHasNoStep) {
   v1::RecordJourneyResponse answer;
   answer.set_sequence(0);
   answer.set_next_sequence(1);
-  EXPECT_EQ(ToJson(answer).dump(),
-            R"({"sequence":0,"next_sequence":1,"step":null,"motion":"MOVING","landmarks":[]})");
+  EXPECT_EQ(
+      ToJson(answer).dump(),
+      R"({"sequence":0,"next_sequence":1,"frame":0,"step":null,"motion":"MOVING","landmarks":[]})");
 }
 
 TEST(JsonLineTest, LocalizeHasTheWordsOfTheContract) {
@@ -37,6 +39,7 @@ TEST(JsonLineTest, LocalizeHasTheWordsOfTheContract) {
   answer.set_motion(v1::MOTION_MOVING);
   answer.set_journey("robots/R/journeys/J");
   answer.set_step(207);
+  answer.set_step_frame(208);
   answer.set_probability(0.93);
   answer.mutable_interval()->set_first(204);
   answer.mutable_interval()->set_last(210);
@@ -52,12 +55,13 @@ TEST(JsonLineTest, LocalizeHasTheWordsOfTheContract) {
   match.set_delta(5.1);
   match.set_p(0.76);
   match.set_p_t(0.62);
-  EXPECT_EQ(ToJson(answer).dump(),
-            R"({"sequence":12,"outcome":"MATCH","motion":"MOVING","journey":"robots/R/journeys/J",)"
-            R"("step":207,"probability":0.93,"interval":[204,210],"progress_home":0.41,)"
-            R"("direction":"HOMEWARD","landmark":17,"similarity":0.62,"matches":[{"journey":)"
-            R"("robots/R/journeys/J","landmark":17,"step":207,"side":"LEFT","delta":5.1,"p":0.76,)"
-            R"("p_t":0.62}]})");
+  EXPECT_EQ(
+      ToJson(answer).dump(),
+      R"({"sequence":12,"frame":12,"outcome":"MATCH","motion":"MOVING","journey":"robots/R/journeys/J",)"
+      R"("step":207,"step_frame":208,"probability":0.93,"interval":[204,210],"progress_home":0.41,)"
+      R"("direction":"HOMEWARD","landmark":17,"similarity":0.62,"matches":[{"journey":)"
+      R"("robots/R/journeys/J","landmark":17,"step":207,"side":"LEFT","delta":5.1,"p":0.76,)"
+      R"("p_t":0.62}]})");
 }
 
 TEST(JsonLineTest, LocalizeIsNullWhereThereIsNothing) {
