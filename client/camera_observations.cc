@@ -39,6 +39,11 @@ absl::StatusOr<Cameras> OpenCameras(const std::string& left, const std::string& 
   if (!right.empty()) {
     HOMING_ASSIGN_OR_RETURN(cameras[1], OpenFrameSource(right, Side::kRight));
   }
+  if (cameras[0] != nullptr && cameras[1] != nullptr && !cameras[0]->name().empty() &&
+      cameras[0]->name() == cameras[1]->name()) {
+    return absl::InvalidArgumentError(
+        absl::StrCat("both cameras would take ", cameras[0]->name(), "; name two topics"));
+  }
   return cameras;
 }
 

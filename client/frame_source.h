@@ -8,6 +8,7 @@
 #include <string>
 
 #include "absl/status/statusor.h"
+#include "homing/flow/camera.h"
 #include "homing/flow/observation.h"
 #include "homing/image/frame.h"
 
@@ -36,13 +37,19 @@ class FrameSource {
   // Goes to frame `index` (at most size(); beyond the end of a video: its end); false: cannot (live
   // camera).
   virtual bool Seek(std::int64_t index) = 0;
+  // Names where the frames come from, if two cameras must not share it; else empty.
+  virtual std::string name() const { return ""; }
+  // The camera as the source itself describes it; nothing if it does not.
+  virtual std::optional<Camera> camera() const { return std::nullopt; }
+  // One line that says what of the source cannot be read; empty: nothing.
+  virtual std::string damage() const { return ""; }
 };
 
 // Whether the text can name a source, without opening it. INVALID_ARGUMENT.
 absl::Status CheckSourceText(const std::string& source);
 
 // SOURCE of the command line, for one camera (a simulated scene has two):
-// folder or glob, video file, /dev/videoN, "sim:SCENE[,key=value...]".
+// folder or glob, video file, /dev/videoN, bag (client/bag/bag_source.h), "sim:SCENE[,key=value...]".
 // INVALID_ARGUMENT (malformed, unknown scene or key), NOT_FOUND (no images).
 absl::StatusOr<std::unique_ptr<FrameSource>> OpenFrameSource(const std::string& source,
                                                              Side camera);

@@ -68,7 +68,9 @@ void AddRobotFlags(CLI::App& command, RobotFlags& flags) {
   command
       .add_option("--left", flags.left,
                   "SOURCE of the robot's left camera: a folder or glob of images in natural order, "
-                  "a video file, a camera /dev/videoN, or sim:SCENE[,key=value...]")
+                  "a video file, a camera /dev/videoN, a bag FILE.mcap, FILE.bag or FILE.db3 with "
+                  "#TOPIC behind it where "
+                  "it has several, or sim:SCENE[,key=value...]")
       ->check(check_source);
   command.add_option("--right", flags.right, "SOURCE of the robot's right camera")
       ->check(check_source);
@@ -77,6 +79,26 @@ void AddRobotFlags(CLI::App& command, RobotFlags& flags) {
   command.add_option("--send", flags.send, "Send the frames, or flow vectors computed here")
       ->check(CLI::IsMember({"frames", "flow"}))
       ->capture_default_str();
+}
+
+std::optional<v1::Camera> CameraOf(const RobotFlags& flags, const Cameras& cameras, Side side) {
+  const bool left = side == Side::kLeft;
+  if (!(left ? flags.left_camera : flags.right_camera).empty()) {
+    return left ? flags.left_intrinsics() : flags.right_intrinsics();
+  }
+  const auto& source = cameras[left ? 0 : 1];
+  const auto camera = source == nullptr ? std::nullopt : source->camera();
+  if (!camera) return std::nullopt;
+  return wire::ToProto(*camera);
+}
+
+std::vector<std::string> DamageOf(const Cameras& cameras) {
+  std::vector<std::string> lines;
+  for (const auto& camera : cameras) {
+    const std::string line = camera == nullptr ? "" : camera->damage();
+    if (!line.empty() && (lines.empty() || lines.back() != line)) lines.push_back(line);
+  }
+  return lines;
 }
 
 void RequireCamera(const RobotFlags& flags) {

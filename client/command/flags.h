@@ -3,9 +3,12 @@
 #define CLIENT_COMMAND_FLAGS_H_
 
 #include <CLI/CLI.hpp>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "absl/status/statusor.h"
+#include "client/camera_observations.h"
 #include "client/connection.h"
 #include "client/journey_client.h"
 #include "homing/flow/flow_tracker.h"
@@ -32,6 +35,10 @@ struct RobotFlags {
 };
 
 void AddRobotFlags(CLI::App& command, RobotFlags& flags);
+// The camera of a side: as the flags give it, else as the source describes it, else nothing.
+std::optional<v1::Camera> CameraOf(const RobotFlags& flags, const Cameras& cameras, Side side);
+// Lines about what of the sources cannot be read.
+std::vector<std::string> DamageOf(const Cameras& cameras);
 // Throws CLI's error of usage unless --left or --right is given.
 void RequireCamera(const RobotFlags& flags);
 

@@ -29,17 +29,17 @@ struct LocalizeFlags {
   bool paper_only = false;
 };
 
-LocalizingOptions MakeOptions(const LocalizeFlags& flags) {
+LocalizingOptions MakeOptions(const LocalizeFlags& flags, const Cameras& cameras) {
   LocalizingOptions options;
   options.window = flags.window;
   v1::LocalizeConfig& config = options.config;
   config.set_journey(flags.journey);
   config.set_travel(ToTravel(flags.travel));
-  if (!flags.robot.left_camera.empty()) {
-    *config.mutable_left_camera() = flags.robot.left_intrinsics();
+  if (auto camera = CameraOf(flags.robot, cameras, Side::kLeft)) {
+    *config.mutable_left_camera() = *std::move(camera);
   }
-  if (!flags.robot.right_camera.empty()) {
-    *config.mutable_right_camera() = flags.robot.right_intrinsics();
+  if (auto camera = CameraOf(flags.robot, cameras, Side::kRight)) {
+    *config.mutable_right_camera() = *std::move(camera);
   }
   config.set_max_matches(flags.matches);
   config.set_threshold(flags.threshold);
@@ -78,6 +78,8 @@ absl::StatusOr<std::unique_ptr<CameraObservations>> OpenRobot(const LocalizeFlag
 
 absl::Status Localize(const Session& session, const LocalizeFlags& flags) {
   HOMING_ASSIGN_OR_RETURN(Cameras cameras, OpenCameras(flags.robot.left, flags.robot.right));
+  for (const std::string& line : DamageOf(cameras)) session.Log(line);
+  const LocalizingOptions options = MakeOptions(flags, cameras);
   HOMING_ASSIGN_OR_RETURN(const Connection connection, session.Connect());
   JourneyClient journeys(&connection, session.stop);
   HOMING_ASSIGN_OR_RETURN(const auto observations, OpenRobot(flags, journeys, std::move(cameras)));
@@ -90,8 +92,7 @@ absl::Status Localize(const Session& session, const LocalizeFlags& flags) {
     ++outcomes[Word(answer.outcome())];
     return session.json ? session.PrintJson(ToJson(answer)) : session.Print(AnswerRow(answer));
   };
-  HOMING_RETURN_IF_ERROR(
-      client.Localize(MakeOptions(flags), observations.get(), on_answer, session.stop));
+  HOMING_RETURN_IF_ERROR(client.Localize(options, observations.get(), on_answer, session.stop));
   std::string summary = "done:";
   for (const auto& [outcome, count] : outcomes) absl::StrAppend(&summary, " ", outcome, " ", count);
   session.Log(summary);
