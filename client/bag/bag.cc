@@ -10,7 +10,7 @@
 #include "client/bag/mcap_reader.h"
 #include "client/bag/ros1_bag.h"
 #include "client/bag/rosbag2_database.h"
-#include "homing/status_macros.h"
+#include "homing/base/status_macros.h"
 
 namespace homing::client::bag {
 namespace {

@@ -7,8 +7,8 @@
 #include "absl/strings/str_cat.h"
 #include "client/bag/image_message.h"
 #include "client/bag/topic_choice.h"
-#include "homing/range_check.h"
-#include "homing/status_macros.h"
+#include "homing/base/range_check.h"
+#include "homing/base/status_macros.h"
 
 namespace homing::client::bag {
 namespace {

@@ -7,7 +7,7 @@
 #include "client/bag/foxglove.pb.h"
 #include "client/bag/raw_image.h"
 #include "client/bag/ros_reader.h"
-#include "homing/status_macros.h"
+#include "homing/base/status_macros.h"
 
 namespace homing::client::bag {
 namespace {

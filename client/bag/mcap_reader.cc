@@ -10,7 +10,7 @@
 #include "client/bag/byte_reader.h"
 #include "client/bag/chunked_bag.h"
 #include "client/bag/decompression.h"
-#include "homing/status_macros.h"
+#include "homing/base/status_macros.h"
 
 namespace homing::client::bag {
 namespace {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "absl/strings/str_cat.h"
-#include "homing/status_macros.h"
+#include "homing/base/status_macros.h"
 
 namespace homing::client::bag {
 namespace {

@@ -9,7 +9,7 @@
 #include "absl/strings/str_cat.h"
 #include "client/bag/bag_file.h"
 #include "client/bag/decompression.h"
-#include "homing/status_macros.h"
+#include "homing/base/status_macros.h"
 
 namespace homing::client::bag {
 namespace {
