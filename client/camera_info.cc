@@ -24,23 +24,27 @@ absl::StatusOr<Intrinsics> ReadMatrix(const std::vector<double>& values, std::si
 
 absl::Status SetDistortion(const CameraInfo& info, Camera* camera) {
   const std::string& model = info.distortion_model;
-  std::size_t most = camera->distortion.size();
+  constexpr std::array<const char*, 3> kFisheye = {"equidistant", "fisheye", "kannala_brandt"};
+  camera->fisheye = std::find(kFisheye.begin(), kFisheye.end(), model) != kFisheye.end();
+  std::size_t most = camera->fisheye ? 4 : camera->distortion.size();
   if (model == "plumb_bob" || model == "radtan") most = 5;
-  if (std::all_of(info.distortion.begin(), info.distortion.end(),
-                  [](double k) { return k == 0; })) {
+  if (!camera->fisheye && std::all_of(info.distortion.begin(), info.distortion.end(),
+                                      [](double k) { return k == 0; })) {
     return absl::OkStatus();
   }
   constexpr std::array<const char*, 4> kKnown = {"plumb_bob", "radtan", "rational_polynomial", ""};
-  if (std::find(kKnown.begin(), kKnown.end(), model) == kKnown.end()) {
+  if (!camera->fisheye && std::find(kKnown.begin(), kKnown.end(), model) == kKnown.end()) {
     return absl::InvalidArgumentError(
         absl::StrCat("the distortion model \"", model, "\" is not supported"));
   }
-  if (info.distortion.size() > most) {
+  const auto beyond =
+      info.distortion.begin() + static_cast<std::ptrdiff_t>(std::min(most, info.distortion.size()));
+  if (std::any_of(beyond, info.distortion.end(), [](double k) { return k != 0; })) {
     return absl::InvalidArgumentError(absl::StrCat("the distortion model \"", model, "\" has ",
                                                    info.distortion.size(), " values, at most ",
-                                                   most, " are read"));
+                                                   most, " are supported"));
   }
-  std::copy(info.distortion.begin(), info.distortion.end(), camera->distortion.begin());
+  std::copy(info.distortion.begin(), beyond, camera->distortion.begin());
   return absl::OkStatus();
 }
 
