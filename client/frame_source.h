@@ -41,16 +41,17 @@ class FrameSource {
   virtual std::string name() const { return ""; }
   // The camera as the source itself describes it; nothing if it does not.
   virtual std::optional<Camera> camera() const { return std::nullopt; }
-  // One line that says what of the source cannot be read; empty: nothing.
-  virtual std::string damage() const { return ""; }
+  // What the user should know of what was left out; empty: nothing.
+  virtual std::string remark() const { return ""; }
 };
 
 // Whether the text can name a source, without opening it. INVALID_ARGUMENT.
 absl::Status CheckSourceText(const std::string& source);
 
 // SOURCE of the command line, for one camera (a simulated scene has two):
-// folder or glob, video file, /dev/videoN, bag (client/bag/bag_source.h), "sim:SCENE[,key=value...]".
-// INVALID_ARGUMENT (malformed, unknown scene or key), NOT_FOUND (no images).
+// folder or glob, video file, /dev/videoN, bag (client/bag/bag_source.h),
+// "sim:SCENE[,key=value...]". INVALID_ARGUMENT (malformed, unknown scene or key), NOT_FOUND (no
+// images).
 absl::StatusOr<std::unique_ptr<FrameSource>> OpenFrameSource(const std::string& source,
                                                              Side camera);
 

@@ -44,7 +44,7 @@ class BagSource : public FrameSource {
 
   std::string name() const override { return absl::StrCat(path_, "#", topic_->name); }
   std::optional<Camera> camera() const override { return camera_; }
-  std::string damage() const override { return bag_->damage(); }
+  std::string remark() const override { return bag_->damage(); }
 
   // From the first message of the camera_info topic; a camera that is not calibrated gives none.
   absl::Status ReadCamera() {

@@ -40,8 +40,9 @@ std::string Line(const BagTopic& topic) {
   const std::size_t count = topic.messages.size();
   std::string rate;
   if (count > 1) {
-    const double seconds =
-        1e-9 * static_cast<double>(topic.messages.back().time_ns - topic.messages.front().time_ns);
+    // Damaged times may lie further apart than an integer holds.
+    const double seconds = 1e-9 * (static_cast<double>(topic.messages.back().time_ns) -
+                                   static_cast<double>(topic.messages.front().time_ns));
     if (seconds > 0) rate = absl::StrFormat(", %.1f Hz", static_cast<double>(count - 1) / seconds);
   }
   return absl::StrCat("\n  ", topic.name, "  ", topic.type, ", ", count, " messages", rate);

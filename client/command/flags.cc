@@ -9,6 +9,7 @@
 #include "absl/strings/numbers.h"
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_split.h"
+#include "client/calibration_file.h"
 #include "client/frame_source.h"
 #include "homing/base/status_macros.h"
 #include "proto/wire/settings_conversion.h"
@@ -16,7 +17,7 @@
 namespace homing::client {
 namespace {
 
-constexpr char kCameraForm[] = "fx,fy,cx,cy[,k1,k2,p1,p2,k3][,yaw=RAD]";
+constexpr char kCameraForm[] = "fx,fy,cx,cy[,k1,k2,p1,p2,k3][,yaw=RAD] or FILE[#CAMERA][,yaw=RAD]";
 
 // CLI11 wants a text, empty if all is well.
 std::string Explain(const absl::Status& status) { return std::string(status.message()); }
@@ -34,24 +35,31 @@ v1::Camera CameraOrNone(const std::string& text) {
 }  // namespace
 
 absl::StatusOr<v1::Camera> ParseCamera(const std::string& text) {
-  v1::Camera camera;
-  std::vector<double> values;
-  for (const auto& part : absl::StrSplit(text, ',')) {
-    const bool yaw = absl::StartsWith(part, "yaw=");
-    double value = 0;
-    if (!absl::SimpleAtod(yaw ? part.substr(4) : part, &value)) return BadCamera(text);
-    if (yaw) {
-      camera.set_yaw_rad(value);
-    } else {
-      values.push_back(value);
-    }
+  std::vector<std::string> parts = absl::StrSplit(text, ',');
+  double yaw = 0;
+  if (absl::StartsWith(parts.back(), "yaw=")) {
+    if (!absl::SimpleAtod(parts.back().substr(4), &yaw)) return BadCamera(text);
+    parts.pop_back();
   }
-  if (values.size() != 4 && values.size() != 9) return BadCamera(text);
-  camera.set_focal_x(values[0]);
-  camera.set_focal_y(values[1]);
-  camera.set_center_x(values[2]);
-  camera.set_center_y(values[3]);
-  for (std::size_t i = 4; i < values.size(); ++i) camera.add_distortion(values[i]);
+  std::vector<double> values;
+  for (const std::string& part : parts) {
+    double value = 0;
+    if (absl::SimpleAtod(part, &value)) values.push_back(value);
+  }
+  v1::Camera camera;
+  if (parts.size() == 1 && values.empty() && !parts[0].empty()) {
+    HOMING_ASSIGN_OR_RETURN(const Camera calibrated, ReadCalibrationFile(parts[0]));
+    camera = wire::ToProto(calibrated);
+  } else if (values.size() == parts.size() && (values.size() == 4 || values.size() == 9)) {
+    camera.set_focal_x(values[0]);
+    camera.set_focal_y(values[1]);
+    camera.set_center_x(values[2]);
+    camera.set_center_y(values[3]);
+    for (std::size_t i = 4; i < values.size(); ++i) camera.add_distortion(values[i]);
+  } else {
+    return BadCamera(text);
+  }
+  camera.set_yaw_rad(yaw);
   return camera;
 }
 
@@ -64,7 +72,8 @@ void AddRobotFlags(CLI::App& command, RobotFlags& flags) {
     return Explain(ParseCamera(text).status());
   };
   const std::string camera_help =
-      absl::StrCat("Pinhole camera ", kCameraForm, ", pixels and radians");
+      absl::StrCat("Calibrated camera, ", kCameraForm,
+                   ": pixels and radians, or camera_info of ROS, kalibr or OpenCV");
   command
       .add_option("--left", flags.left,
                   "SOURCE of the robot's left camera: a folder or glob of images in natural order, "
@@ -92,10 +101,10 @@ std::optional<v1::Camera> CameraOf(const RobotFlags& flags, const Cameras& camer
   return wire::ToProto(*camera);
 }
 
-std::vector<std::string> DamageOf(const Cameras& cameras) {
+std::vector<std::string> RemarksOn(const Cameras& cameras) {
   std::vector<std::string> lines;
   for (const auto& camera : cameras) {
-    const std::string line = camera == nullptr ? "" : camera->damage();
+    const std::string line = camera == nullptr ? "" : camera->remark();
     if (!line.empty() && (lines.empty() || lines.back() != line)) lines.push_back(line);
   }
   return lines;

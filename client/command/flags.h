@@ -17,7 +17,8 @@
 
 namespace homing::client {
 
-// "fx,fy,cx,cy[,k1,k2,p1,p2,k3][,yaw=RAD]", pixels and radians. INVALID_ARGUMENT.
+// "fx,fy,cx,cy[,k1,k2,p1,p2,k3][,yaw=RAD]", pixels and radians, or "FILE[#CAMERA][,yaw=RAD]", see
+// client/calibration_file.h. INVALID_ARGUMENT, NOT_FOUND.
 absl::StatusOr<v1::Camera> ParseCamera(const std::string& text);
 
 // --left, --right, --left-camera, --right-camera, --send.
@@ -37,8 +38,8 @@ struct RobotFlags {
 void AddRobotFlags(CLI::App& command, RobotFlags& flags);
 // The camera of a side: as the flags give it, else as the source describes it, else nothing.
 std::optional<v1::Camera> CameraOf(const RobotFlags& flags, const Cameras& cameras, Side side);
-// Lines about what of the sources cannot be read.
-std::vector<std::string> DamageOf(const Cameras& cameras);
+// Lines about what was left out of the sources.
+std::vector<std::string> RemarksOn(const Cameras& cameras);
 // Throws CLI's error of usage unless --left or --right is given.
 void RequireCamera(const RobotFlags& flags);
 

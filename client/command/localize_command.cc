@@ -78,7 +78,7 @@ absl::StatusOr<std::unique_ptr<CameraObservations>> OpenRobot(const LocalizeFlag
 
 absl::Status Localize(const Session& session, const LocalizeFlags& flags) {
   HOMING_ASSIGN_OR_RETURN(Cameras cameras, OpenCameras(flags.robot.left, flags.robot.right));
-  for (const std::string& line : DamageOf(cameras)) session.Log(line);
+  for (const std::string& line : RemarksOn(cameras)) session.Log(line);
   const LocalizingOptions options = MakeOptions(flags, cameras);
   HOMING_ASSIGN_OR_RETURN(const Connection connection, session.Connect());
   JourneyClient journeys(&connection, session.stop);

@@ -71,7 +71,7 @@ absl::Status SendAll(const Session& session, const Connection& connection, const
 
 absl::Status Record(const Session& session, const RecordFlags& flags) {
   HOMING_ASSIGN_OR_RETURN(Cameras cameras, OpenCameras(flags.robot.left, flags.robot.right));
-  for (const std::string& line : DamageOf(cameras)) session.Log(line);
+  for (const std::string& line : RemarksOn(cameras)) session.Log(line);
   HOMING_ASSIGN_OR_RETURN(const Connection connection, session.Connect());
   JourneyClient journeys(&connection, session.stop);
   HOMING_ASSIGN_OR_RETURN(const auto request, MakeCreateRequest(flags, cameras));

@@ -17,7 +17,7 @@ class DamagedBagTest : public ::testing::TestWithParam<const char*> {
     WriteFile(path_, bytes);
     auto source = OpenBagSource({path_, "/cam/right/image_raw"}, Side::kRight);
     if (!source.ok()) return -1;
-    damage_ = (*source)->damage();
+    damage_ = (*source)->remark();
     int good = 0;
     while (true) {
       const auto frame = (*source)->Next();

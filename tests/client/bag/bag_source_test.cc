@@ -30,7 +30,7 @@ TEST_P(EveryBagTest, GivesTheFramesOfBothCameras) {
     const auto source = OpenBagSource({BagPath(GetParam()), ""}, side);
     ASSERT_THAT(source, IsOk());
     EXPECT_EQ((*source)->size(), kFrames);
-    EXPECT_EQ((*source)->damage(), "");
+    EXPECT_EQ((*source)->remark(), "");
     for (int i = 0; i < kFrames; ++i) {
       const auto frame = (*source)->Next();
       ASSERT_THAT(frame, IsOk());

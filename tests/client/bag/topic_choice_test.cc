@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "tests/support/status_matchers.h"
 
 namespace homing::client::bag {
@@ -60,6 +62,14 @@ TEST(TopicChoiceTest, ListsThemWhereItIsNotClear) {
   EXPECT_THAT(ChooseImageTopic({topics[2]}, "", Side::kLeft),
               StatusIs(absl::StatusCode::kInvalidArgument,
                        AllOf(HasSubstr("no image topic"), HasSubstr("/imu"))));
+}
+
+TEST(TopicChoiceTest, TimesMayBeFarApart) {
+  BagTopic damaged = Topic("/a", "Image");
+  damaged.messages[0].time_ns = std::numeric_limits<std::int64_t>::min();
+  damaged.messages[2].time_ns = std::numeric_limits<std::int64_t>::max();
+  EXPECT_THAT(ChooseImageTopic({damaged, Topic("/b", "Image")}, "", Side::kLeft),
+              StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("0.0 Hz")));
 }
 
 TEST(TopicChoiceTest, FindsTheCameraBesideTheImage) {
