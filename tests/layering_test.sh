@@ -43,7 +43,7 @@ client/picture      client/picture $below_journey
 client/opencv       client/opencv client homing/image homing/base
 client/bag          client/bag client homing/flow homing/image homing/base
 client              client client/bag client/simulator client/command homing/ $messages google/rpc grpc/health/
-client/command      client/command client/picture client/simulator client server/process homing/ $messages
+client/command      client/command client/bag client/picture client/simulator client server/process homing/ $messages
 client/bench        client/bench client/command client/simulator client server/process homing/ $messages
 "
 # Folders where generated code, gRPC and Protobuf may not be seen.

@@ -7,6 +7,7 @@
 #include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
 #include "client/bag/bag_file.h"
+#include "client/bag/mcap_format.h"
 #include "client/bag/mcap_reader.h"
 #include "client/bag/ros1_bag.h"
 #include "client/bag/rosbag2_database.h"

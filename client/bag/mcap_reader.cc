@@ -10,19 +10,11 @@
 #include "client/bag/byte_reader.h"
 #include "client/bag/chunked_bag.h"
 #include "client/bag/decompression.h"
+#include "client/bag/mcap_format.h"
 #include "homing/base/status_macros.h"
 
 namespace homing::client::bag {
 namespace {
-
-// Opcodes.
-constexpr std::uint8_t kFooter = 0x02;
-constexpr std::uint8_t kSchema = 0x03;
-constexpr std::uint8_t kChannel = 0x04;
-constexpr std::uint8_t kMessage = 0x05;
-constexpr std::uint8_t kChunk = 0x06;
-constexpr std::uint8_t kMessageIndex = 0x07;
-constexpr std::uint8_t kDataEnd = 0x0F;
 
 // Opcode and length before each record.
 constexpr std::uint64_t kHeadBytes = 9;
@@ -132,7 +124,8 @@ absl::StatusOr<ChunkHead> McapReader::ReadChunkHead(std::uint64_t offset) const 
   head.compression = std::string(reader.Text());
   head.records_size = reader.Take<std::uint64_t>();
   head.records_offset = reader.offset();
-  if (!reader.ok() || opcode != kChunk || record_size < head.records_offset - kHeadBytes ||
+  if (!reader.ok() || opcode != mcap_opcode::kChunk ||
+      record_size < head.records_offset - kHeadBytes ||
       head.records_size > record_size - (head.records_offset - kHeadBytes)) {
     return absl::DataLossError("its head is damaged");
   }
@@ -161,9 +154,9 @@ absl::Status McapReader::ScanChunk(std::string_view records, std::uint64_t chunk
     const std::string_view record = reader.Bytes(reader.Take<std::uint64_t>());
     if (!reader.ok()) return absl::DataLossError("a record ends too early");
     absl::Status status;
-    if (opcode == kSchema) status = TakeSchema(record);
-    if (opcode == kChannel) status = TakeChannel(record);
-    if (opcode == kMessage && messages) {
+    if (opcode == mcap_opcode::kSchema) status = TakeSchema(record);
+    if (opcode == mcap_opcode::kChannel) status = TakeChannel(record);
+    if (opcode == mcap_opcode::kMessage && messages) {
       status = TakeMessage(record, static_cast<std::int64_t>(chunk), offset);
     }
     HOMING_RETURN_IF_ERROR(status);
@@ -172,18 +165,21 @@ absl::Status McapReader::ScanChunk(std::string_view records, std::uint64_t chunk
 }
 
 absl::Status McapReader::TakeRecord(std::uint8_t opcode, std::uint64_t offset, std::uint64_t size) {
-  if (opcode == kChunk) BeginChunk(offset);
-  if (opcode != kChunk && opcode != kMessageIndex) EndChunk(/*complete=*/true);
+  if (opcode == mcap_opcode::kChunk) BeginChunk(offset);
+  if (opcode != mcap_opcode::kChunk && opcode != mcap_opcode::kMessageIndex)
+    EndChunk(/*complete=*/true);
   const std::uint64_t content = offset + kHeadBytes;
-  if (opcode == kMessage) {
+  if (opcode == mcap_opcode::kMessage) {
     HOMING_ASSIGN_OR_RETURN(const std::string head,
                             file_.Read(content, std::min(size, kMessageHeadBytes)));
     return TakeMessage(head, -1, offset);
   }
-  if (opcode != kSchema && opcode != kChannel && opcode != kMessageIndex) return absl::OkStatus();
+  if (opcode != mcap_opcode::kSchema && opcode != mcap_opcode::kChannel &&
+      opcode != mcap_opcode::kMessageIndex)
+    return absl::OkStatus();
   HOMING_ASSIGN_OR_RETURN(const std::string record, file_.Read(content, size));
-  if (opcode == kSchema) return TakeSchema(record);
-  return opcode == kChannel ? TakeChannel(record) : TakeIndex(record);
+  if (opcode == mcap_opcode::kSchema) return TakeSchema(record);
+  return opcode == mcap_opcode::kChannel ? TakeChannel(record) : TakeIndex(record);
 }
 
 absl::Status McapReader::Scan() {
@@ -195,7 +191,7 @@ absl::Status McapReader::Scan() {
     const auto opcode = reader.Take<std::uint8_t>();
     const auto size = reader.Take<std::uint64_t>();
     if (!reader.ok() || size > file_.size() - offset - kHeadBytes) break;
-    whole = opcode == kDataEnd || opcode == kFooter;
+    whole = opcode == mcap_opcode::kDataEnd || opcode == mcap_opcode::kFooter;
     if (const absl::Status status = TakeRecord(opcode, offset, size); !status.ok()) {
       ReportDamage(absl::StrCat(file_.path(), ": the record at byte ", offset,
                                 " is damaged: ", std::string(status.message())));
@@ -232,7 +228,8 @@ absl::StatusOr<std::string> McapReader::Read(const MessagePlace& place) {
   ByteReader message(reader.Bytes(reader.Take<std::uint64_t>()));
   const auto channel = message.Take<std::uint16_t>();
   message.Bytes(kMessageHeadBytes - sizeof(channel));
-  if (!reader.ok() || !message.ok() || opcode != kMessage || channel != place.channel) {
+  if (!reader.ok() || !message.ok() || opcode != mcap_opcode::kMessage ||
+      channel != place.channel) {
     return absl::DataLossError("the index does not point to a message of its topic");
   }
   return std::string(message.Bytes(message.rest()));

@@ -3,15 +3,12 @@
 #define CLIENT_BAG_MCAP_READER_H_
 
 #include <memory>
-#include <string_view>
 
 #include "absl/status/statusor.h"
 #include "client/bag/bag.h"
 #include "client/bag/bag_file.h"
 
 namespace homing::client::bag {
-
-inline constexpr std::string_view kMcapMagic("\x89MCAP0\r\n", 8);
 
 // REQUIRES: the file begins with kMcapMagic.
 absl::StatusOr<std::unique_ptr<Bag>> OpenMcap(BagFile file, const BagLimits& limits);
