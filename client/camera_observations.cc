@@ -61,6 +61,9 @@ absl::StatusOr<std::optional<CameraObservations::Instant>> CameraObservations::N
   for (std::size_t camera = 0; camera < cameras_.size(); ++camera) {
     if (cameras_[camera] == nullptr) continue;
     HOMING_ASSIGN_OR_RETURN(instant[camera], cameras_[camera]->Next());
+    if (instant[camera] && !instant[camera]->fault.empty()) {
+      return absl::InvalidArgumentError(instant[camera]->fault);
+    }
   }
   if (!instant[0] && !instant[1]) return std::optional<Instant>();
   return std::make_optional(std::move(instant));

@@ -21,14 +21,16 @@ class BagSource : public FrameSource {
   BagSource(std::string path, std::unique_ptr<Bag> bag, const BagTopic* topic)
       : path_(std::move(path)), bag_(std::move(bag)), topic_(topic) {}
 
-  // A message that cannot be read is passed over by the next call.
   absl::StatusOr<std::optional<SourceFrame>> Next() override {
     if (next_ == topic_->messages.size()) return std::optional<SourceFrame>();
     const std::size_t index = next_++;
     const MessagePlace& place = topic_->messages[index];
     auto frame = ReadFrame(place);
     if (!frame.ok()) {
-      return Within(absl::StrCat(path_, "#", topic_->name, ", message ", index), frame.status());
+      SourceFrame bad;
+      bad.fault =
+          absl::StrCat(name(), ", message ", index, ": ", std::string(frame.status().message()));
+      frame = std::move(bad);
     }
     if (frame->capture_time_ns == 0) frame->capture_time_ns = place.time_ns;
     return std::make_optional(*std::move(frame));
@@ -40,6 +42,20 @@ class BagSource : public FrameSource {
     if (index < 0 || index > size()) return false;
     next_ = static_cast<std::size_t>(index);
     return true;
+  }
+
+  // Stamps: the times of recording differ from camera to camera by what the messages took on their
+  // way. Reads each message.
+  FrameKeys keys() const override {
+    FrameKeys keys{FrameKeys::Kind::kTime, {}};
+    keys.values.reserve(topic_->messages.size());
+    for (const MessagePlace& place : topic_->messages) {
+      const auto bytes = bag_->Read(place);
+      const std::int64_t stamp = bytes.ok() ? StampOf(*topic_, *bytes) : 0;
+      const std::int64_t key = stamp == 0 ? place.time_ns : stamp;
+      keys.values.push_back(keys.values.empty() ? key : std::max(key, keys.values.back()));
+    }
+    return keys;
   }
 
   std::string name() const override { return absl::StrCat(path_, "#", topic_->name); }

@@ -118,6 +118,17 @@ absl::StatusOr<SourceFrame> DecodeImage(const BagTopic& topic, std::string_view 
   return raw ? RosImage(topic, reader) : RosCompressedImage(topic, reader);
 }
 
+std::int64_t StampOf(const BagTopic& topic, std::string_view bytes) {
+  if (topic.wire != Wire::kProtobuf) {
+    RosReader reader(topic.wire, bytes);
+    const std::int64_t stamp = reader.Header();
+    return reader.ok() ? stamp : 0;
+  }
+  // Both kinds have it in the same place.
+  const auto message = Parse<foxglove::CompressedImage>(topic, bytes);
+  return message.ok() ? Nanoseconds(message->timestamp()) : 0;
+}
+
 absl::StatusOr<CameraInfo> DecodeCameraInfo(const BagTopic& topic, std::string_view bytes) {
   if (topic.wire == Wire::kProtobuf) return FoxgloveCamera(topic, bytes);
   RosReader reader(topic.wire, bytes);

@@ -25,7 +25,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     // Chunks are decompressed again for each message that lies in another one.
     for (std::int64_t i = 0; i < std::min<std::int64_t>(count, 20); ++i) {
       const auto frame = (*source)->Next();
-      if (frame.ok()) homing::fuzz::Require(frame->has_value());
+      homing::fuzz::Require(frame.ok() && frame->has_value());
+    }
+    if (count <= 20) {
+      homing::fuzz::Require((*source)->keys().values.size() == static_cast<std::size_t>(count));
     }
     homing::fuzz::Require((*source)->Seek(count));
     const auto end = (*source)->Next();

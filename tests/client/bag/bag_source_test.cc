@@ -44,6 +44,17 @@ TEST_P(EveryBagTest, GivesTheFramesOfBothCameras) {
   }
 }
 
+TEST_P(EveryBagTest, FramesArePairedByTheirStamps) {
+  const auto source = OpenBagSource({BagPath(GetParam()), ""}, Side::kRight);
+  ASSERT_THAT(source, IsOk());
+  const FrameKeys keys = (*source)->keys();
+  EXPECT_EQ(keys.kind, FrameKeys::Kind::kTime);
+  ASSERT_EQ(keys.values.size(), std::size_t{kFrames});
+  for (int i = 0; i < kFrames; ++i) {
+    EXPECT_EQ(keys.values[static_cast<std::size_t>(i)], kStartNs + i * 100'000'000);
+  }
+}
+
 TEST_P(EveryBagTest, SeeksToAnyFrame) {
   const auto source = OpenBagSource({BagPath(GetParam()), "/cam/left/image_raw"}, Side::kRight);
   ASSERT_THAT(source, IsOk());
