@@ -11,6 +11,7 @@
 #include "absl/strings/str_split.h"
 #include "client/calibration_file.h"
 #include "client/frame_source.h"
+#include "client/view_window.h"
 #include "homing/base/status_macros.h"
 #include "proto/wire/settings_conversion.h"
 
@@ -25,6 +26,15 @@ std::string Explain(const absl::Status& status) { return std::string(status.mess
 absl::Status BadCamera(const std::string& text) {
   return absl::InvalidArgumentError(
       absl::StrCat("camera is \"", text, "\"; it must be ", kCameraForm));
+}
+
+ViewWindow WindowOf(const RobotFlags& flags, Side side) {
+  const bool right = side == Side::kRight;
+  const std::string& crop = right && !flags.right_crop.empty() ? flags.right_crop : flags.crop;
+  ViewWindow window;
+  window.mask = right && !flags.right_mask.empty() ? flags.right_mask : flags.mask;
+  if (const auto rectangle = ParseCrop(crop); rectangle.ok()) window.crop = *rectangle;
+  return window;
 }
 
 v1::Camera CameraOrNone(const std::string& text) {
@@ -85,15 +95,40 @@ void AddRobotFlags(CLI::App& command, RobotFlags& flags) {
       ->check(check_source);
   command.add_option("--left-camera", flags.left_camera, camera_help)->check(check_camera);
   command.add_option("--right-camera", flags.right_camera, camera_help)->check(check_camera);
+  const auto check_crop = [](const std::string& text) { return Explain(ParseCrop(text).status()); };
+  command
+      .add_option("--crop", flags.crop,
+                  "X,Y,WIDTH,HEIGHT: the part of the images that is used, pixels [all]")
+      ->check(check_crop);
+  command.add_option("--right-crop", flags.right_crop, "The same of the right camera [--crop]")
+      ->check(check_crop);
+  command.add_option("--mask", flags.mask,
+                     "Image of the size of the frames, before the crop; its white part is used: "
+                     "leave out what moves with the robot [all]");
+  command.add_option("--right-mask", flags.right_mask, "The same of the right camera [--mask]");
   command.add_option("--send", flags.send, "Send the frames, or flow vectors computed here")
       ->check(CLI::IsMember({"frames", "flow"}))
       ->capture_default_str();
 }
 
+absl::StatusOr<Cameras> OpenCameras(const RobotFlags& flags) {
+  HOMING_ASSIGN_OR_RETURN(Cameras cameras, OpenCameras(flags.left, flags.right));
+  for (const Side side : {Side::kLeft, Side::kRight}) {
+    auto& camera = cameras[side == Side::kLeft ? 0 : 1];
+    if (camera == nullptr) continue;
+    HOMING_ASSIGN_OR_RETURN(camera, OpenWindow(std::move(camera), WindowOf(flags, side)));
+  }
+  return cameras;
+}
+
 std::optional<v1::Camera> CameraOf(const RobotFlags& flags, const Cameras& cameras, Side side) {
   const bool left = side == Side::kLeft;
   if (!(left ? flags.left_camera : flags.right_camera).empty()) {
-    return left ? flags.left_intrinsics() : flags.right_intrinsics();
+    v1::Camera given = left ? flags.left_intrinsics() : flags.right_intrinsics();
+    const auto camera = wire::FromProto(given, left ? "left_camera" : "right_camera");
+    // The server says what is wrong with it.
+    if (!camera.ok()) return given;
+    return wire::ToProto(CropCamera(*camera, WindowOf(flags, side)));
   }
   const auto& source = cameras[left ? 0 : 1];
   const auto camera = source == nullptr ? std::nullopt : source->camera();

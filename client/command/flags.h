@@ -27,6 +27,11 @@ struct RobotFlags {
   std::string right;
   std::string left_camera;
   std::string right_camera;
+  // X,Y,WIDTH,HEIGHT and image files; those of the right camera are the left one's unless given.
+  std::string crop;
+  std::string right_crop;
+  std::string mask;
+  std::string right_mask;
   std::string send = "frames";
 
   bool sends_flow() const { return send == "flow"; }
@@ -34,6 +39,9 @@ struct RobotFlags {
   v1::Camera left_intrinsics() const;
   v1::Camera right_intrinsics() const;
 };
+
+// The sources that the flags name, each as its crop and mask leave it. As OpenFrameSource.
+absl::StatusOr<Cameras> OpenCameras(const RobotFlags& flags);
 
 void AddRobotFlags(CLI::App& command, RobotFlags& flags);
 // The camera of a side: as the flags give it, else as the source describes it, else nothing.

@@ -109,7 +109,7 @@ class AnswerOutputs {
 };
 
 absl::Status Localize(const Session& session, const LocalizeFlags& flags) {
-  HOMING_ASSIGN_OR_RETURN(Cameras cameras, OpenCameras(flags.robot.left, flags.robot.right));
+  HOMING_ASSIGN_OR_RETURN(Cameras cameras, OpenCameras(flags.robot));
   for (const std::string& line : RemarksOn(cameras)) session.Log(line);
   const LocalizingOptions options = MakeOptions(flags, cameras);
   HOMING_ASSIGN_OR_RETURN(const Connection connection, session.Connect());

@@ -70,7 +70,7 @@ absl::Status SendAll(const Session& session, const Connection& connection, const
 }
 
 absl::Status Record(const Session& session, const RecordFlags& flags) {
-  HOMING_ASSIGN_OR_RETURN(Cameras cameras, OpenCameras(flags.robot.left, flags.robot.right));
+  HOMING_ASSIGN_OR_RETURN(Cameras cameras, OpenCameras(flags.robot));
   for (const std::string& line : RemarksOn(cameras)) session.Log(line);
   HOMING_ASSIGN_OR_RETURN(const Connection connection, session.Connect());
   JourneyClient journeys(&connection, session.stop);
