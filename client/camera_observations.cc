@@ -39,6 +39,11 @@ absl::StatusOr<Cameras> OpenCameras(const std::string& left, const std::string& 
   if (!right.empty()) {
     HOMING_ASSIGN_OR_RETURN(cameras[1], OpenFrameSource(right, Side::kRight));
   }
+  if (cameras[0] != nullptr && cameras[1] != nullptr && !cameras[0]->name().empty() &&
+      cameras[0]->name() == cameras[1]->name()) {
+    return absl::InvalidArgumentError(
+        absl::StrCat("both cameras would take ", cameras[0]->name(), "; name two topics"));
+  }
   return cameras;
 }
 
@@ -56,6 +61,9 @@ absl::StatusOr<std::optional<CameraObservations::Instant>> CameraObservations::N
   for (std::size_t camera = 0; camera < cameras_.size(); ++camera) {
     if (cameras_[camera] == nullptr) continue;
     HOMING_ASSIGN_OR_RETURN(instant[camera], cameras_[camera]->Next());
+    if (instant[camera] && !instant[camera]->fault.empty()) {
+      return absl::InvalidArgumentError(instant[camera]->fault);
+    }
   }
   if (!instant[0] && !instant[1]) return std::optional<Instant>();
   ++next_frame_;

@@ -4,6 +4,7 @@
 
 #include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
+#include "client/bag/bag_source.h"
 #include "client/image_folder.h"
 #include "client/opencv_readers.h"
 #include "client/simulated_source.h"
@@ -23,9 +24,6 @@ bool IsFolderOrGlob(const std::string& source) {
 
 absl::Status CheckSourceText(const std::string& source) {
   if (source.empty()) return absl::InvalidArgumentError("SOURCE is empty");
-  if (absl::StartsWith(source, "mcap:")) {
-    return absl::InvalidArgumentError(absl::StrCat(source, ": MCAP is not supported"));
-  }
   if (absl::StartsWith(source, "sim:")) return ParseSimulationSpec(source).status();
   return absl::OkStatus();
 }
@@ -37,6 +35,7 @@ absl::StatusOr<std::unique_ptr<FrameSource>> OpenFrameSource(const std::string& 
     HOMING_ASSIGN_OR_RETURN(const SimulationSpec spec, ParseSimulationSpec(source));
     return MakeSimulatedSource(spec, camera);
   }
+  if (const auto bag = bag::ParseBagName(source)) return bag::OpenBagSource(*bag, camera);
   if (IsFolderOrGlob(source)) {
     HOMING_ASSIGN_OR_RETURN(auto paths, ListImages(source));
     return MakeImageFolder(std::move(paths));

@@ -87,11 +87,28 @@ void FieldsFromJson(const Json& json, Options& options) {
   VisitFields(options, [&](const char* name, auto& field) { json.at(name).get_to(field); });
 }
 
+// Five values, as ever, unless the lens has more.
+Json DistortionToJson(const Camera& camera) {
+  std::vector<double> values(camera.distortion.begin(), camera.distortion.end());
+  if (values[5] == 0 && values[6] == 0 && values[7] == 0) values.resize(5);
+  return values;
+}
+
+void DistortionFromJson(const Json& json, Camera& camera) {
+  const auto values = json.get<std::vector<double>>();
+  if (values.size() > camera.distortion.size()) {
+    throw Json::other_error::create(501, "distortion has too many values", &json);
+  }
+  std::copy(values.begin(), values.end(), camera.distortion.begin());
+}
+
 Json CameraToJson(const Camera& camera) {
   Json json = {{"width", camera.width},
                {"height", camera.height},
-               {"distortion", camera.distortion},
+               {"distortion", DistortionToJson(camera)},
                {"yaw_rad", camera.yaw_rad}};
+  // Written only where it says something, so that other cameras read as before.
+  if (camera.fisheye) json["fisheye"] = true;
   if (camera.intrinsics) json["intrinsics"] = FieldsToJson(*camera.intrinsics);
   return json;
 }
@@ -99,7 +116,8 @@ Json CameraToJson(const Camera& camera) {
 void CameraFromJson(const Json& json, Camera& camera) {
   json.at("width").get_to(camera.width);
   json.at("height").get_to(camera.height);
-  json.at("distortion").get_to(camera.distortion);
+  DistortionFromJson(json.at("distortion"), camera);
+  camera.fisheye = json.value("fisheye", false);
   json.at("yaw_rad").get_to(camera.yaw_rad);
   if (json.contains("intrinsics")) {
     FieldsFromJson(json["intrinsics"], camera.intrinsics.emplace());

@@ -41,8 +41,9 @@ server              server/ storage homing/ $messages google/rpc grpc/health/
 client/simulator    client/simulator homing/flow homing/image homing/base
 client/picture      client/picture $below_journey
 client/opencv       client/opencv client homing/image homing/base
-client              client client/simulator client/command homing/ $messages google/rpc grpc/health/
-client/command      client/command client/picture client/simulator client server/process homing/ $messages
+client/bag          client/bag client homing/flow homing/image homing/base
+client              client client/bag client/simulator client/command homing/ $messages google/rpc grpc/health/
+client/command      client/command client/bag client/picture client/simulator client server/process homing/ $messages
 client/bench        client/bench client/command client/simulator client server/process homing/ $messages
 "
 # Folders where generated code, gRPC and Protobuf may not be seen.
@@ -99,7 +100,7 @@ check_contents() {
     forbid 'OpenCV in a folder that does not use images' 'opencv2/' $(sources storage proto)
     forbid 'gRPC or Protobuf where no network may be' 'grpc|google/protobuf|\.pb\.h' $(sources $no_network)
     forbid 'SQLite outside storage' 'include *[<"](sqlite3|SQLiteCpp)' \
-      $(sources homing server proto client tests | grep -vE '^tests/(storage|benchmark)/')
+      $(sources homing server proto client tests | grep -vE '^(tests/(storage|benchmark)|client/bag)/')
     forbid '.value() outside tests' '\.value\(\)' $(sources homing storage server proto client)
     forbid 'CHECK outside tests and main' '(^|[^_[:alnum:]])D?CHECK(_[A-Z]+)?\(|(^|[^_[:alnum:]])(abort|assert)\(' \
       $(sources homing storage server proto client | grep -v '/main\.cc$')

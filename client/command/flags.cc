@@ -9,14 +9,16 @@
 #include "absl/strings/numbers.h"
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_split.h"
+#include "client/calibration_file.h"
 #include "client/frame_source.h"
+#include "client/view_window.h"
 #include "homing/base/status_macros.h"
 #include "proto/wire/settings_conversion.h"
 
 namespace homing::client {
 namespace {
 
-constexpr char kCameraForm[] = "fx,fy,cx,cy[,k1,k2,p1,p2,k3][,yaw=RAD]";
+constexpr char kCameraForm[] = "fx,fy,cx,cy[,k1,k2,p1,p2,k3][,yaw=RAD] or FILE[#CAMERA][,yaw=RAD]";
 
 // CLI11 wants a text, empty if all is well.
 std::string Explain(const absl::Status& status) { return std::string(status.message()); }
@@ -24,6 +26,15 @@ std::string Explain(const absl::Status& status) { return std::string(status.mess
 absl::Status BadCamera(const std::string& text) {
   return absl::InvalidArgumentError(
       absl::StrCat("camera is \"", text, "\"; it must be ", kCameraForm));
+}
+
+ViewWindow WindowOf(const RobotFlags& flags, Side side) {
+  const bool right = side == Side::kRight;
+  const std::string& crop = right && !flags.right_crop.empty() ? flags.right_crop : flags.crop;
+  ViewWindow window;
+  window.mask = right && !flags.right_mask.empty() ? flags.right_mask : flags.mask;
+  if (const auto rectangle = ParseCrop(crop); rectangle.ok()) window.crop = *rectangle;
+  return window;
 }
 
 v1::Camera CameraOrNone(const std::string& text) {
@@ -34,24 +45,31 @@ v1::Camera CameraOrNone(const std::string& text) {
 }  // namespace
 
 absl::StatusOr<v1::Camera> ParseCamera(const std::string& text) {
-  v1::Camera camera;
-  std::vector<double> values;
-  for (const auto& part : absl::StrSplit(text, ',')) {
-    const bool yaw = absl::StartsWith(part, "yaw=");
-    double value = 0;
-    if (!absl::SimpleAtod(yaw ? part.substr(4) : part, &value)) return BadCamera(text);
-    if (yaw) {
-      camera.set_yaw_rad(value);
-    } else {
-      values.push_back(value);
-    }
+  std::vector<std::string> parts = absl::StrSplit(text, ',');
+  double yaw = 0;
+  if (absl::StartsWith(parts.back(), "yaw=")) {
+    if (!absl::SimpleAtod(parts.back().substr(4), &yaw)) return BadCamera(text);
+    parts.pop_back();
   }
-  if (values.size() != 4 && values.size() != 9) return BadCamera(text);
-  camera.set_focal_x(values[0]);
-  camera.set_focal_y(values[1]);
-  camera.set_center_x(values[2]);
-  camera.set_center_y(values[3]);
-  for (std::size_t i = 4; i < values.size(); ++i) camera.add_distortion(values[i]);
+  std::vector<double> values;
+  for (const std::string& part : parts) {
+    double value = 0;
+    if (absl::SimpleAtod(part, &value)) values.push_back(value);
+  }
+  v1::Camera camera;
+  if (parts.size() == 1 && values.empty() && !parts[0].empty()) {
+    HOMING_ASSIGN_OR_RETURN(const Camera calibrated, ReadCalibrationFile(parts[0]));
+    camera = wire::ToProto(calibrated);
+  } else if (values.size() == parts.size() && (values.size() == 4 || values.size() == 9)) {
+    camera.set_focal_x(values[0]);
+    camera.set_focal_y(values[1]);
+    camera.set_center_x(values[2]);
+    camera.set_center_y(values[3]);
+    for (std::size_t i = 4; i < values.size(); ++i) camera.add_distortion(values[i]);
+  } else {
+    return BadCamera(text);
+  }
+  camera.set_yaw_rad(yaw);
   return camera;
 }
 
@@ -64,19 +82,67 @@ void AddRobotFlags(CLI::App& command, RobotFlags& flags) {
     return Explain(ParseCamera(text).status());
   };
   const std::string camera_help =
-      absl::StrCat("Pinhole camera ", kCameraForm, ", pixels and radians");
+      absl::StrCat("Calibrated camera, ", kCameraForm,
+                   ": pixels and radians, or camera_info of ROS, kalibr or OpenCV");
   command
       .add_option("--left", flags.left,
                   "SOURCE of the robot's left camera: a folder or glob of images in natural order, "
-                  "a video file, a camera /dev/videoN, or sim:SCENE[,key=value...]")
+                  "a video file, a camera /dev/videoN, a bag FILE.mcap, FILE.bag or FILE.db3 with "
+                  "#TOPIC behind it where "
+                  "it has several, or sim:SCENE[,key=value...]")
       ->check(check_source);
   command.add_option("--right", flags.right, "SOURCE of the robot's right camera")
       ->check(check_source);
   command.add_option("--left-camera", flags.left_camera, camera_help)->check(check_camera);
   command.add_option("--right-camera", flags.right_camera, camera_help)->check(check_camera);
+  const auto check_crop = [](const std::string& text) { return Explain(ParseCrop(text).status()); };
+  command
+      .add_option("--crop", flags.crop,
+                  "X,Y,WIDTH,HEIGHT: the part of the images that is used, pixels [all]")
+      ->check(check_crop);
+  command.add_option("--right-crop", flags.right_crop, "The same of the right camera [--crop]")
+      ->check(check_crop);
+  command.add_option("--mask", flags.mask,
+                     "Image of the size of the frames, before the crop; its white part is used: "
+                     "leave out what moves with the robot [all]");
+  command.add_option("--right-mask", flags.right_mask, "The same of the right camera [--mask]");
   command.add_option("--send", flags.send, "Send the frames, or flow vectors computed here")
       ->check(CLI::IsMember({"frames", "flow"}))
       ->capture_default_str();
+}
+
+absl::StatusOr<Cameras> OpenCameras(const RobotFlags& flags) {
+  HOMING_ASSIGN_OR_RETURN(Cameras cameras, OpenCameras(flags.left, flags.right));
+  for (const Side side : {Side::kLeft, Side::kRight}) {
+    auto& camera = cameras[side == Side::kLeft ? 0 : 1];
+    if (camera == nullptr) continue;
+    HOMING_ASSIGN_OR_RETURN(camera, OpenWindow(std::move(camera), WindowOf(flags, side)));
+  }
+  return cameras;
+}
+
+std::optional<v1::Camera> CameraOf(const RobotFlags& flags, const Cameras& cameras, Side side) {
+  const bool left = side == Side::kLeft;
+  if (!(left ? flags.left_camera : flags.right_camera).empty()) {
+    v1::Camera given = left ? flags.left_intrinsics() : flags.right_intrinsics();
+    const auto camera = wire::FromProto(given, left ? "left_camera" : "right_camera");
+    // The server says what is wrong with it.
+    if (!camera.ok()) return given;
+    return wire::ToProto(CropCamera(*camera, WindowOf(flags, side)));
+  }
+  const auto& source = cameras[left ? 0 : 1];
+  const auto camera = source == nullptr ? std::nullopt : source->camera();
+  if (!camera) return std::nullopt;
+  return wire::ToProto(*camera);
+}
+
+std::vector<std::string> RemarksOn(const Cameras& cameras) {
+  std::vector<std::string> lines;
+  for (const auto& camera : cameras) {
+    const std::string line = camera == nullptr ? "" : camera->remark();
+    if (!line.empty() && (lines.empty() || lines.back() != line)) lines.push_back(line);
+  }
+  return lines;
 }
 
 void RequireCamera(const RobotFlags& flags) {

@@ -3,9 +3,12 @@
 #define CLIENT_COMMAND_FLAGS_H_
 
 #include <CLI/CLI.hpp>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "absl/status/statusor.h"
+#include "client/camera_observations.h"
 #include "client/connection.h"
 #include "client/journey_client.h"
 #include "homing/flow/flow_tracker.h"
@@ -14,7 +17,8 @@
 
 namespace homing::client {
 
-// "fx,fy,cx,cy[,k1,k2,p1,p2,k3][,yaw=RAD]", pixels and radians. INVALID_ARGUMENT.
+// "fx,fy,cx,cy[,k1,k2,p1,p2,k3][,yaw=RAD]", pixels and radians, or "FILE[#CAMERA][,yaw=RAD]", see
+// client/calibration_file.h. INVALID_ARGUMENT, NOT_FOUND.
 absl::StatusOr<v1::Camera> ParseCamera(const std::string& text);
 
 // --left, --right, --left-camera, --right-camera, --send.
@@ -23,6 +27,11 @@ struct RobotFlags {
   std::string right;
   std::string left_camera;
   std::string right_camera;
+  // X,Y,WIDTH,HEIGHT and image files; those of the right camera are the left one's unless given.
+  std::string crop;
+  std::string right_crop;
+  std::string mask;
+  std::string right_mask;
   std::string send = "frames";
 
   bool sends_flow() const { return send == "flow"; }
@@ -31,7 +40,14 @@ struct RobotFlags {
   v1::Camera right_intrinsics() const;
 };
 
+// The sources that the flags name, each as its crop and mask leave it. As OpenFrameSource.
+absl::StatusOr<Cameras> OpenCameras(const RobotFlags& flags);
+
 void AddRobotFlags(CLI::App& command, RobotFlags& flags);
+// The camera of a side: as the flags give it, else as the source describes it, else nothing.
+std::optional<v1::Camera> CameraOf(const RobotFlags& flags, const Cameras& cameras, Side side);
+// Lines about what was left out of the sources.
+std::vector<std::string> RemarksOn(const Cameras& cameras);
 // Throws CLI's error of usage unless --left or --right is given.
 void RequireCamera(const RobotFlags& flags);
 

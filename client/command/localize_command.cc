@@ -1,3 +1,4 @@
+#include <fstream>
 #include <map>
 #include <memory>
 #include <optional>
@@ -5,8 +6,11 @@
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
 #include "client/camera_observations.h"
+#include "client/command/answer_bag.h"
+#include "client/command/answer_table.h"
 #include "client/command/commands.h"
 #include "client/command/flags.h"
+#include "client/command/growing_file.h"
 #include "client/command/json_line.h"
 #include "client/command/progress.h"
 #include "client/homing_client.h"
@@ -27,19 +31,21 @@ struct LocalizeFlags {
   std::optional<double> match_probability;
   std::optional<double> unknown_probability;
   bool paper_only = false;
+  std::string mcap_out;
+  std::string csv;
 };
 
-LocalizingOptions MakeOptions(const LocalizeFlags& flags) {
+LocalizingOptions MakeOptions(const LocalizeFlags& flags, const Cameras& cameras) {
   LocalizingOptions options;
   options.window = flags.window;
   v1::LocalizeConfig& config = options.config;
   config.set_journey(flags.journey);
   config.set_travel(ToTravel(flags.travel));
-  if (!flags.robot.left_camera.empty()) {
-    *config.mutable_left_camera() = flags.robot.left_intrinsics();
+  if (auto camera = CameraOf(flags.robot, cameras, Side::kLeft)) {
+    *config.mutable_left_camera() = *std::move(camera);
   }
-  if (!flags.robot.right_camera.empty()) {
-    *config.mutable_right_camera() = flags.robot.right_intrinsics();
+  if (auto camera = CameraOf(flags.robot, cameras, Side::kRight)) {
+    *config.mutable_right_camera() = *std::move(camera);
   }
   config.set_max_matches(flags.matches);
   config.set_threshold(flags.threshold);
@@ -66,33 +72,72 @@ std::string AnswerRow(const v1::LocalizeResponse& answer) {
       or_dash(answer.has_similarity(), absl::StrFormat("%.2f", answer.similarity())));
 }
 
-absl::StatusOr<std::unique_ptr<CameraObservations>> OpenRobot(const LocalizeFlags& flags,
-                                                              JourneyClient& journeys,
-                                                              Cameras cameras) {
-  std::optional<FlowOptions> flow;
-  if (flags.robot.sends_flow()) {
-    HOMING_ASSIGN_OR_RETURN(flow, FlowOptionsOf(journeys, flags.journey));
+// Answers go to stdout, and to the files that were asked for.
+class AnswerOutputs {
+ public:
+  AnswerOutputs(const Session& session, const LocalizeFlags& flags)
+      : session_(session), flags_(flags) {}
+
+  absl::Status Open(const std::optional<FlowOptions>& flow) {
+    if (!flags_.csv.empty()) {
+      HOMING_ASSIGN_OR_RETURN(table_, OpenGrowingFile(flags_.csv));
+      *table_ << AnswerTableHead() << std::endl;
+    }
+    if (!flags_.mcap_out.empty()) {
+      HOMING_ASSIGN_OR_RETURN(bag_, AnswerBag::Open(flags_.mcap_out, *flow));
+    }
+    return session_.json ? absl::OkStatus() : session_.Print(AnswerHeader());
   }
-  return std::make_unique<CameraObservations>(std::move(cameras), flow);
-}
+
+  AnswerBag* bag() { return bag_.get(); }
+
+  absl::Status Add(const v1::LocalizeResponse& answer) {
+    if (table_ && !(*table_ << AnswerTableLine(answer) << std::endl)) {
+      return absl::ResourceExhaustedError(absl::StrCat("cannot write ", flags_.csv));
+    }
+    if (bag_ != nullptr) HOMING_RETURN_IF_ERROR(bag_->Add(answer));
+    return session_.json ? session_.PrintJson(ToJson(answer)) : session_.Print(AnswerRow(answer));
+  }
+
+  absl::Status Finish() { return bag_ == nullptr ? absl::OkStatus() : bag_->Finish(); }
+
+ private:
+  const Session& session_;
+  const LocalizeFlags& flags_;
+  std::optional<std::ofstream> table_;
+  std::unique_ptr<AnswerBag> bag_;
+};
 
 absl::Status Localize(const Session& session, const LocalizeFlags& flags) {
-  HOMING_ASSIGN_OR_RETURN(Cameras cameras, OpenCameras(flags.robot.left, flags.robot.right));
+  HOMING_ASSIGN_OR_RETURN(Cameras cameras, OpenCameras(flags.robot));
+  for (const std::string& line : RemarksOn(cameras)) session.Log(line);
+  const LocalizingOptions options = MakeOptions(flags, cameras);
   HOMING_ASSIGN_OR_RETURN(const Connection connection, session.Connect());
   JourneyClient journeys(&connection, session.stop);
-  HOMING_ASSIGN_OR_RETURN(const auto observations, OpenRobot(flags, journeys, std::move(cameras)));
-  observations->StopAt(session.stop);
+  std::optional<FlowOptions> flow;
+  if (flags.robot.sends_flow() || !flags.mcap_out.empty()) {
+    HOMING_ASSIGN_OR_RETURN(flow, FlowOptionsOf(journeys, flags.journey));
+  }
+  CameraObservations observations(std::move(cameras),
+                                  flags.robot.sends_flow() ? flow : std::nullopt);
+  observations.StopAt(session.stop);
   HomingClient client(&connection, [&](const std::string& text) { session.Log(text); });
-  Progress progress("localizing", observations->size(), session.json && !session.quiet);
-  if (!session.json) HOMING_RETURN_IF_ERROR(session.Print(AnswerHeader()));
+  Progress progress("localizing", observations.size(), session.json && !session.quiet);
+  AnswerOutputs outputs(session, flags);
+  HOMING_RETURN_IF_ERROR(outputs.Open(flow));
   std::map<std::string, int> outcomes;
   const auto on_answer = [&](const v1::LocalizeResponse& answer) {
     progress.Set(answer.frame() + 1);
     ++outcomes[Word(answer.outcome())];
-    return session.json ? session.PrintJson(ToJson(answer)) : session.Print(AnswerRow(answer));
+    return outputs.Add(answer);
   };
-  HOMING_RETURN_IF_ERROR(
-      client.Localize(MakeOptions(flags), observations.get(), on_answer, session.stop));
+  const auto watched = outputs.bag() ? outputs.bag()->Watch(&observations) : nullptr;
+  const absl::Status status =
+      client.Localize(options, watched ? watched.get() : &observations, on_answer, session.stop);
+  // Also behind an error: what was answered can be looked at.
+  const absl::Status finished = outputs.Finish();
+  HOMING_RETURN_IF_ERROR(status);
+  HOMING_RETURN_IF_ERROR(finished);
   std::string summary = "done:";
   for (const auto& [outcome, count] : outcomes) absl::StrAppend(&summary, " ", outcome, " ", count);
   session.Log(summary);
@@ -130,6 +175,9 @@ void AddLocalizeCommand(CLI::App& app, Session& session) {
   command.add_option("--window", flags->window, "Most observations sent and not yet answered")
       ->check(CLI::Range(1, 10000))
       ->capture_default_str();
+  command.add_option("--mcap-out", flags->mcap_out,
+                     "Also write an MCAP file: images, flow, landmarks and answers, for Foxglove");
+  command.add_option("--csv", flags->csv, "Also write the answers as comma-separated values");
   command.callback([flags, &session] {
     RequireCamera(flags->robot);
     session.run = [flags, &session] { return Localize(session, *flags); };

@@ -24,18 +24,19 @@ struct RecordFlags {
   bool keep_open = false;
 };
 
-absl::StatusOr<v1::CreateJourneyRequest> MakeCreateRequest(const RecordFlags& flags) {
+absl::StatusOr<v1::CreateJourneyRequest> MakeCreateRequest(const RecordFlags& flags,
+                                                           const Cameras& cameras) {
   HOMING_ASSIGN_OR_RETURN(const JourneyName name, ParseJourneyName(flags.journey));
   v1::CreateJourneyRequest request;
   request.set_parent(name.parent);
   request.set_journey_id(name.journey_id);
   request.set_writer_id(flags.writer);
   v1::JourneySettings& settings = *request.mutable_journey()->mutable_settings();
-  if (!flags.robot.left_camera.empty()) {
-    *settings.mutable_left_camera() = flags.robot.left_intrinsics();
+  if (auto camera = CameraOf(flags.robot, cameras, Side::kLeft)) {
+    *settings.mutable_left_camera() = *std::move(camera);
   }
-  if (!flags.robot.right_camera.empty()) {
-    *settings.mutable_right_camera() = flags.robot.right_intrinsics();
+  if (auto camera = CameraOf(flags.robot, cameras, Side::kRight)) {
+    *settings.mutable_right_camera() = *std::move(camera);
   }
   settings.set_deviation_model(flags.model);
   for (const std::string& reader : flags.readers) request.mutable_journey()->add_readers(reader);
@@ -69,10 +70,11 @@ absl::Status SendAll(const Session& session, const Connection& connection, const
 }
 
 absl::Status Record(const Session& session, const RecordFlags& flags) {
-  HOMING_ASSIGN_OR_RETURN(Cameras cameras, OpenCameras(flags.robot.left, flags.robot.right));
+  HOMING_ASSIGN_OR_RETURN(Cameras cameras, OpenCameras(flags.robot));
+  for (const std::string& line : RemarksOn(cameras)) session.Log(line);
   HOMING_ASSIGN_OR_RETURN(const Connection connection, session.Connect());
   JourneyClient journeys(&connection, session.stop);
-  HOMING_ASSIGN_OR_RETURN(const auto request, MakeCreateRequest(flags));
+  HOMING_ASSIGN_OR_RETURN(const auto request, MakeCreateRequest(flags, cameras));
   HOMING_ASSIGN_OR_RETURN(v1::Journey journey, journeys.Create(request));
   std::optional<FlowOptions> flow;
   if (flags.robot.sends_flow()) {

@@ -48,15 +48,16 @@ absl::Status CheckIntrinsics(const Intrinsics& intrinsics) {
 }
 
 bool IsDistorted(const Camera& camera) {
-  return std::any_of(camera.distortion.begin(), camera.distortion.end(),
-                     [](double k) { return k != 0; });
+  return camera.fisheye || std::any_of(camera.distortion.begin(), camera.distortion.end(),
+                                       [](double k) { return k != 0; });
 }
 
 // A point of the raw image in the ideal camera's image; nothing where that cannot see it.
 std::optional<Eigen::Vector2d> IdealPoint(const Camera& camera, double x, double y) {
   const Intrinsics& in = *camera.intrinsics;
   const Eigen::Vector2d distorted((x - in.center_x) / in.focal_x, (y - in.center_y) / in.focal_y);
-  const auto ray = Undistort(distorted, camera.distortion);
+  const auto ray = camera.fisheye ? UndistortFisheye(distorted, camera.distortion)
+                                  : Undistort(distorted, camera.distortion);
   if (!ray) {
     return std::nullopt;
   }

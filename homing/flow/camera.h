@@ -25,10 +25,11 @@ struct Camera {
   // Pixels; 0: not known yet (taken from the first observation).
   int width = 0;
   int height = 0;
-  // Absent: everything works in raw pixels, and distortion and yaw must be zero.
+  // Absent: everything works in raw pixels, and there must be no distortion and no yaw.
   std::optional<Intrinsics> intrinsics;
-  // k1, k2, p1, p2, k3.
-  std::array<double, 5> distortion{};
+  // k1, k2, p1, p2, k3, k4, k5, k6; if fisheye k1, k2, k3, k4 and zeros.
+  std::array<double, 8> distortion{};
+  bool fisheye = false;
   // Positive clockwise seen from above, (-pi/2, pi/2).
   double yaw_rad = 0;
   friend bool operator==(const Camera&, const Camera&) = default;

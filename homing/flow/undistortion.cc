@@ -1,6 +1,8 @@
 #include "homing/flow/undistortion.h"
 
 #include <Eigen/LU>
+#include <cmath>
+#include <numbers>
 
 namespace homing {
 namespace {
@@ -9,14 +11,31 @@ constexpr int kMaxSteps = 30;
 // Far below a float pixel, focal lengths being under 1e6 px.
 constexpr double kTolerance = 1e-11;
 
-// 1 + k1 r2 + k2 r2^2 + k3 r2^3, and its derivative by r2.
+// (1 + k1 r2 + k2 r2^2 + k3 r2^3) / (1 + k4 r2 + k5 r2^2 + k6 r2^3), and its derivative by r2.
 struct Radial {
   double factor;
   double slope;
 };
 
 Radial RadialAt(double r2, const Distortion& d) {
-  return {1 + r2 * (d[0] + r2 * (d[1] + r2 * d[4])), d[0] + r2 * (2 * d[1] + r2 * 3 * d[4])};
+  const double above = 1 + r2 * (d[0] + r2 * (d[1] + r2 * d[4]));
+  const double above_slope = d[0] + r2 * (2 * d[1] + r2 * 3 * d[4]);
+  const double below = 1 + r2 * (d[5] + r2 * (d[6] + r2 * d[7]));
+  const double below_slope = d[5] + r2 * (2 * d[6] + r2 * 3 * d[7]);
+  return {above / below, (above_slope * below - above * below_slope) / (below * below)};
+}
+
+// Distance from the centre of a ray at this angle from the axis of a fisheye lens, and its
+// derivative.
+struct FisheyeRadius {
+  double radius;
+  double slope;
+};
+
+FisheyeRadius FisheyeAt(double angle, const Distortion& d) {
+  const double a2 = angle * angle;
+  return {angle * (1 + a2 * (d[0] + a2 * (d[1] + a2 * (d[2] + a2 * d[3])))),
+          1 + a2 * (3 * d[0] + a2 * (5 * d[1] + a2 * (7 * d[2] + a2 * 9 * d[3])))};
 }
 
 Eigen::Matrix2d JacobianAt(const Eigen::Vector2d& ray, const Distortion& d) {
@@ -55,6 +74,39 @@ std::optional<Eigen::Vector2d> Undistort(const Eigen::Vector2d& shown,
       return ray;
     }
     ray -= jacobian.inverse() * miss;
+  }
+  return std::nullopt;
+}
+
+Eigen::Vector2d DistortFisheye(const Eigen::Vector2d& ray, const Distortion& d) {
+  const double distance = ray.norm();
+  if (distance == 0) {
+    return ray;
+  }
+  return ray * (FisheyeAt(std::atan(distance), d).radius / distance);
+}
+
+std::optional<Eigen::Vector2d> UndistortFisheye(const Eigen::Vector2d& shown,
+                                                const Distortion& distortion) {
+  const double distance = shown.norm();
+  if (distance == 0) {
+    return shown;
+  }
+  double angle = std::min(distance, std::numbers::pi / 2);
+  for (int i = 0; i < kMaxSteps; ++i) {
+    const FisheyeRadius at = FisheyeAt(angle, distortion);
+    // Not positive: beyond the fold of the model.
+    if (!(at.slope > 0)) {
+      return std::nullopt;
+    }
+    const double miss = at.radius - distance;
+    if (std::abs(miss) < kTolerance) {
+      if (!(angle > 0 && angle < std::numbers::pi / 2)) {
+        return std::nullopt;
+      }
+      return shown * (std::tan(angle) / distance);
+    }
+    angle -= miss / at.slope;
   }
   return std::nullopt;
 }

@@ -35,9 +35,11 @@ absl::StatusOr<Camera> FromProto(const v1::Camera& message, const std::string& f
                               message.center_y()};
   if (intrinsics != Intrinsics{}) camera.intrinsics = intrinsics;
   const int given = message.distortion_size();
-  if (given != 0 && given != 4 && given != 5) {
-    return absl::InvalidArgumentError(
-        absl::StrCat(field, ".distortion has ", given, " entries: must have 0, 4 or 5"));
+  camera.fisheye = message.fisheye();
+  if (given != 0 && given != 4 && (camera.fisheye || (given != 5 && given != 8))) {
+    return absl::InvalidArgumentError(absl::StrCat(field, ".distortion has ", given,
+                                                   " entries: must have 0",
+                                                   camera.fisheye ? " or 4" : ", 4, 5 or 8"));
   }
   std::copy(message.distortion().begin(), message.distortion().end(), camera.distortion.begin());
   camera.yaw_rad = message.yaw_rad();
@@ -110,9 +112,14 @@ v1::Camera ToProto(const Camera& camera) {
     message.set_center_y(camera.intrinsics->center_y);
   }
   if (camera.distortion != decltype(camera.distortion){}) {
-    message.mutable_distortion()->Add(camera.distortion.begin(), camera.distortion.end());
+    // As many as the model has.
+    const auto more = std::find_if(camera.distortion.begin() + 5, camera.distortion.end(),
+                                   [](double k) { return k != 0; });
+    const int count = camera.fisheye ? 4 : more == camera.distortion.end() ? 5 : 8;
+    message.mutable_distortion()->Add(camera.distortion.begin(), camera.distortion.begin() + count);
   }
   message.set_yaw_rad(camera.yaw_rad);
+  message.set_fisheye(camera.fisheye);
   return message;
 }
 

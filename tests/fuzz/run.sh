@@ -7,11 +7,11 @@ set -eu
 cd "$(dirname "$0")/../.."
 seconds=${1:-30}
 [ $# -eq 0 ] || shift
-[ $# -gt 0 ] || set -- image flow import database config request
+[ $# -gt 0 ] || set -- image bag flow import database config request
 mkdir -p build
 log=build/fuzz-build.log
 {
-  sh deploy/install.sh build fuzz
+  sh deploy/install.sh build client fuzz
   cmake --preset fuzz
   cmake --build --preset fuzz -j "$(nproc)"
 } >"$log" 2>&1 </dev/null || { tail -n 100 "$log" >&2; exit 1; }

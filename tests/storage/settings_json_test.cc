@@ -22,6 +22,18 @@ TEST(SettingsJson, ReadsBackToTheSameBits) {
   }
 }
 
+TEST(SettingsJson, LensesOfOtherModelsAreKept) {
+  JourneySettings settings = OddSettings();
+  // Files of before have five values and no model.
+  const std::string before = ToJson(settings);
+  EXPECT_EQ(before.find("fisheye"), std::string::npos);
+  settings.cameras[0].distortion[7] = 0.0625;
+  settings.cameras[1].fisheye = true;
+  const auto read = JourneySettingsFromJson(ToJson(settings));
+  ASSERT_THAT(read, IsOk());
+  EXPECT_TRUE(*read == settings);
+}
+
 TEST(SettingsJson, IsCanonical) {
   const std::string text = ToJson(TrainingOptions());
   EXPECT_EQ(text.find(' '), std::string::npos);

@@ -95,6 +95,44 @@ TEST(UndistortTest, IsTheInverseOverTheImage) {
   }
 }
 
+// At r2 = 0.25 the factor is (1 + 0.1 * 0.25) / (1 + 0.2 * 0.25 + 0.4 * 0.0625) = 1.025 / 1.075.
+TEST(UndistortTest, TheRadialPartMayHaveADivisor) {
+  const Distortion lens{0.1, 0, 0, 0, 0, 0.2, 0.4, 0};
+  EXPECT_NEAR(Distort({0.5, 0}, lens).x(), 0.5 * 1.025 / 1.075, 1e-15);
+  const Distortion real{0.35, -0.12, 0.0015, -0.001, 0.02, 0.7, -0.05, 0.03};
+  for (double x = -0.9; x <= 0.9; x += 0.3) {
+    const auto ray = Undistort(Distort({x, 0.4}, real), real);
+    ASSERT_TRUE(ray.has_value()) << x;
+    EXPECT_NEAR((*ray - Eigen::Vector2d(x, 0.4)).norm(), 0, 1e-9) << x;
+  }
+}
+
+// A ray at 45 degrees: a = pi/4, a (1 + 0.1 a^2) = 0.785398 + 0.0484473.
+TEST(UndistortTest, AFisheyeFollowsTheAngle) {
+  EXPECT_NEAR(DistortFisheye({1, 0}, {0.1}).x(), 0.8338455, 1e-7);
+  EXPECT_NEAR(DistortFisheye({0.6, -0.8}, {0.1}).y(), -0.8 * 0.8338455, 1e-7);
+  EXPECT_EQ(DistortFisheye({0, 0}, {0.1}), Eigen::Vector2d(0, 0));
+  const Distortion lens{-0.02, 0.005, -0.003, 0.0004};
+  for (double x = -5; x <= 5; x += 0.5) {
+    const auto ray = UndistortFisheye(DistortFisheye({x, 0.3}, lens), lens);
+    ASSERT_TRUE(ray.has_value()) << x;
+    EXPECT_NEAR((*ray - Eigen::Vector2d(x, 0.3)).norm(), 0, 1e-8) << x;
+  }
+  // From the side and from behind.
+  EXPECT_FALSE(UndistortFisheye({1.6, 0}, {}).has_value());
+  EXPECT_FALSE(UndistortFisheye({9, 0}, {-0.5}).has_value());
+}
+
+// Without coefficients the angle itself: 277 tan(0.1) = 27.793 px.
+TEST(RectifyTest, AFisheyeIsUndone) {
+  Camera camera = IdealCamera();
+  camera.fisheye = true;
+  const FlowField ideal = Rectify(FieldOf({{187.7F, 120, 160, 120}}), camera);
+  ASSERT_EQ(ideal.vectors.size(), 1U);
+  EXPECT_NEAR(ideal.vectors[0].start_x, 187.793, 1e-3);
+  EXPECT_NEAR(ideal.vectors[0].end_x, 160, 1e-4);
+}
+
 TEST(UndistortTest, BeyondTheFoldThereIsNoRay) {
   // r (1 - 0.5 r^2) is at most 0.544.
   EXPECT_FALSE(Undistort({0.6, 0}, {-0.5, 0, 0, 0, 0}).has_value());

@@ -49,6 +49,25 @@ TEST(SettingsConversion, EverySettingComesBack) {
   EXPECT_TRUE(*back == settings);
 }
 
+TEST(SettingsConversion, LensesOfOtherModelsComeBack) {
+  Camera rational = OddSettings().cameras[0];
+  rational.distortion[7] = 0.0625;
+  EXPECT_EQ(ToProto(rational).distortion_size(), 8);
+  Camera fisheye = OddSettings().cameras[0];
+  fisheye.fisheye = true;
+  fisheye.distortion = {0.1, -0.02, 0.001, 1e-17};
+  EXPECT_EQ(ToProto(fisheye).distortion_size(), 4);
+  for (const Camera& camera : {rational, fisheye}) {
+    const auto back = FromProto(ToProto(camera), "camera");
+    ASSERT_THAT(back, IsOk());
+    EXPECT_EQ(*back, camera);
+  }
+  v1::Camera five = ToProto(fisheye);
+  five.add_distortion(0);
+  EXPECT_THAT(FromProto(five, "camera"),
+              StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("must have 0 or 4")));
+}
+
 TEST(SettingsConversion, WhatIsUnsetIsTakenFromTheDefaults) {
   const JourneySettings defaults = OddSettings();
   const auto settings = FromProto(v1::JourneySettings(), "settings", defaults);
@@ -81,7 +100,7 @@ TEST(SettingsConversion, RefusesWrongSettingsByName) {
   ExpectSettingsRefused([](v1::JourneySettings& m) { m.mutable_right_camera()->set_height(8193); },
                         "settings.right_camera.height is 8193");
   ExpectSettingsRefused([](v1::JourneySettings& m) { m.mutable_left_camera()->add_distortion(1); },
-                        "settings.left_camera.distortion has 6 entries");
+                        "settings.left_camera.distortion has 6 entries: must have 0, 4, 5 or 8");
   ExpectSettingsRefused(
       [](v1::JourneySettings& m) { m.mutable_left_camera()->set_distortion(0, NAN); },
       "settings.left_camera: ");

@@ -1,0 +1,78 @@
+// Recordings of robots (bags): topics, and the bytes of their messages. Source: own design.
+#ifndef CLIENT_BAG_BAG_H_
+#define CLIENT_BAG_BAG_H_
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "absl/status/statusor.h"
+
+namespace homing::client::bag {
+
+enum class Wire { kOther, kRos1, kCdr, kProtobuf };
+
+enum class Content { kOther, kRawImage, kCompressedImage, kCameraInfo };
+
+// Where a message lies; the format's own words.
+struct MessagePlace {
+  // Nanoseconds; when it was recorded.
+  std::int64_t time_ns = 0;
+  // Where its chunk begins in the file; -1: it lies in none.
+  std::int64_t chunk = -1;
+  std::int64_t offset = 0;
+  std::uint32_t channel = 0;
+};
+
+struct BagTopic {
+  std::string name;
+  // As the bag has it: "sensor_msgs/msg/Image".
+  std::string type;
+  Wire wire = Wire::kOther;
+  Content content = Content::kOther;
+  // In the order of their times. Empty for kOther.
+  std::vector<MessagePlace> messages;
+};
+
+struct BagLimits {
+  // Of one chunk or message once decompressed, bytes.
+  std::uint64_t max_chunk = std::uint64_t{256} << 20;
+};
+
+// Not thread-safe.
+class Bag {
+ public:
+  virtual ~Bag() = default;
+  // In the order of their names.
+  const std::vector<BagTopic>& topics() const { return topics_; }
+  // One line that says what of the file cannot be read; empty: nothing.
+  const std::string& damage() const { return damage_; }
+  // A message of topics(). DATA_LOSS: damaged.
+  virtual absl::StatusOr<std::string> Read(const MessagePlace& place) = 0;
+
+ protected:
+  // The topic's place in topics_; made if it is new.
+  std::size_t AddTopic(const std::string& name, const std::string& type, Wire wire);
+  // Only the first is kept.
+  void ReportDamage(const std::string& what);
+  // At the end of opening.
+  void SortTopics();
+
+  std::vector<BagTopic> topics_;
+
+ private:
+  std::string damage_;
+};
+
+// What a topic of this type holds, by the names of ROS 1, ROS 2 and Foxglove.
+Content ContentOf(const std::string& type, Wire wire);
+
+// An MCAP file, a ROS 1 bag or a database of rosbag2, by its first bytes. A file that ends too
+// early or has damaged parts is opened; damage() says so. NOT_FOUND, PERMISSION_DENIED;
+// INVALID_ARGUMENT: none of the three.
+absl::StatusOr<std::unique_ptr<Bag>> OpenBag(const std::string& path, const BagLimits& limits = {});
+
+}  // namespace homing::client::bag
+
+#endif  // CLIENT_BAG_BAG_H_

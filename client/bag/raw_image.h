@@ -1,0 +1,32 @@
+// Pixels as robots record them, to those that the server takes. Source: the encodings' names in
+// sensor_msgs; own design.
+#ifndef CLIENT_BAG_RAW_IMAGE_H_
+#define CLIENT_BAG_RAW_IMAGE_H_
+
+#include <cstdint>
+#include <string_view>
+
+#include "absl/status/statusor.h"
+#include "client/frame_source.h"
+
+namespace homing::client::bag {
+
+// Does not own its bytes.
+struct RawImage {
+  std::uint32_t width = 0;
+  std::uint32_t height = 0;
+  // Bytes from row to row.
+  std::uint32_t step = 0;
+  std::string_view encoding;
+  bool big_endian = false;
+  std::string_view data;
+};
+
+// Grey stays grey; 16 bit is stretched from the darkest to the brightest pixel; of YUV the Y is
+// taken; Bayer patterns become grey; alpha is dropped. INVALID_ARGUMENT: another encoding, or fewer
+// bytes than it needs.
+absl::StatusOr<SourceFrame> ConvertRawImage(const RawImage& image);
+
+}  // namespace homing::client::bag
+
+#endif  // CLIENT_BAG_RAW_IMAGE_H_

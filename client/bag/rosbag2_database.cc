@@ -1,0 +1,138 @@
+#include "client/bag/rosbag2_database.h"
+
+#include <SQLiteCpp/SQLiteCpp.h>
+#include <sqlite3.h>
+
+#include <map>
+
+#include "absl/strings/match.h"
+#include "absl/strings/str_cat.h"
+#include "client/bag/bag_file.h"
+#include "client/bag/decompression.h"
+#include "homing/base/status_macros.h"
+
+namespace homing::client::bag {
+namespace {
+
+constexpr char kZstdMagic[] = "\x28\xb5\x2f\xfd";
+
+class Rosbag2Database : public Bag {
+ public:
+  // Throws SQLite::Exception.
+  Rosbag2Database(const std::string& path, const BagLimits& limits)
+      : path_(path), limits_(limits), database_(path, SQLite::OPEN_READONLY) {
+    sqlite3_limit(database_.getHandle(), SQLITE_LIMIT_LENGTH, static_cast<int>(limits.max_chunk));
+    // The file is somebody else's: what it declares runs nothing.
+    database_.exec("PRAGMA trusted_schema = OFF; PRAGMA cell_size_check = ON");
+  }
+
+  absl::Status Scan();
+  absl::StatusOr<std::string> Read(const MessagePlace& place) override;
+
+ private:
+  // A view could compute for ever.
+  bool IsTable(const std::string& name);
+  // SQLite fills a page that the file does not have in full with zeros.
+  absl::Status CheckPages();
+  void ScanTopics();
+  void ScanMessages();
+
+  std::string path_;
+  BagLimits limits_;
+  SQLite::Database database_;
+  // The table's key to the index in topics_, while the database is scanned.
+  std::map<std::int64_t, std::size_t> keys_;
+};
+
+bool Rosbag2Database::IsTable(const std::string& name) {
+  SQLite::Statement query(database_,
+                          "SELECT sql FROM sqlite_master WHERE type = 'table' AND name = ?");
+  query.bind(1, name);
+  return query.executeStep() &&
+         !absl::StartsWithIgnoreCase(query.getColumn(0).getString(), "CREATE VIRTUAL");
+}
+
+absl::Status Rosbag2Database::CheckPages() {
+  HOMING_ASSIGN_OR_RETURN(const BagFile file, BagFile::Open(path_));
+  SQLite::Statement query(database_, "PRAGMA page_size");
+  const std::int64_t page = query.executeStep() ? query.getColumn(0).getInt64() : 0;
+  if (page > 0 && file.size() % static_cast<std::uint64_t>(page) != 0) {
+    ReportDamage(path_ + " ends too early, within a page");
+  }
+  return absl::OkStatus();
+}
+
+void Rosbag2Database::ScanTopics() {
+  SQLite::Statement query(database_, "SELECT id, name, type, serialization_format FROM topics");
+  while (query.executeStep()) {
+    const bool cdr = query.getColumn(3).getString() == "cdr";
+    keys_[query.getColumn(0).getInt64()] =
+        AddTopic(query.getColumn(1).getString(), query.getColumn(2).getString(),
+                 cdr ? Wire::kCdr : Wire::kOther);
+  }
+}
+
+void Rosbag2Database::ScanMessages() {
+  SQLite::Statement query(database_, "SELECT id, topic_id, timestamp FROM messages");
+  while (query.executeStep()) {
+    const auto key = keys_.find(query.getColumn(1).getInt64());
+    if (key == keys_.end()) continue;
+    BagTopic& topic = topics_[key->second];
+    if (topic.content == Content::kOther) continue;
+    MessagePlace place;
+    place.offset = query.getColumn(0).getInt64();
+    place.time_ns = query.getColumn(2).getInt64();
+    topic.messages.push_back(place);
+  }
+}
+
+absl::Status Rosbag2Database::Scan() {
+  try {
+    if (!IsTable("topics") || !IsTable("messages")) {
+      return absl::InvalidArgumentError(
+          absl::StrCat(path_, " is not a database of rosbag2: it has no topics or no messages"));
+    }
+    HOMING_RETURN_IF_ERROR(CheckPages());
+    ScanTopics();
+  } catch (const SQLite::Exception& error) {
+    return absl::InvalidArgumentError(
+        absl::StrCat(path_, " is not a database of rosbag2: ", error.what()));
+  }
+  try {
+    ScanMessages();
+  } catch (const SQLite::Exception& error) {
+    ReportDamage(absl::StrCat(path_, " is damaged: ", error.what()));
+  }
+  SortTopics();
+  return absl::OkStatus();
+}
+
+absl::StatusOr<std::string> Rosbag2Database::Read(const MessagePlace& place) {
+  std::string bytes;
+  try {
+    SQLite::Statement query(database_, "SELECT data FROM messages WHERE id = ?");
+    query.bind(1, place.offset);
+    if (!query.executeStep()) return absl::DataLossError("the message is missing");
+    bytes = query.getColumn(0).getString();
+  } catch (const SQLite::Exception& error) {
+    return absl::DataLossError(absl::StrCat("the message is damaged: ", error.what()));
+  }
+  // rosbag2 can compress each message; no message of ROS begins like that.
+  if (!absl::StartsWith(bytes, kZstdMagic)) return bytes;
+  return DecompressZstd(bytes, limits_.max_chunk);
+}
+
+}  // namespace
+
+absl::StatusOr<std::unique_ptr<Bag>> OpenRosbag2Database(const std::string& path,
+                                                         const BagLimits& limits) {
+  try {
+    auto bag = std::make_unique<Rosbag2Database>(path, limits);
+    HOMING_RETURN_IF_ERROR(bag->Scan());
+    return bag;
+  } catch (const SQLite::Exception& error) {
+    return absl::InvalidArgumentError(absl::StrCat(path, ": ", error.what()));
+  }
+}
+
+}  // namespace homing::client::bag

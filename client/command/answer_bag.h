@@ -1,0 +1,73 @@
+// What a robot saw and what it was answered, as an MCAP file for Foxglove's panels. Source: own
+// design.
+#ifndef CLIENT_COMMAND_ANSWER_BAG_H_
+#define CLIENT_COMMAND_ANSWER_BAG_H_
+
+#include <array>
+#include <fstream>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+
+#include "absl/status/statusor.h"
+#include "client/bag/foxglove.pb.h"
+#include "client/bag/mcap_writer.h"
+#include "client/observation_stream.h"
+#include "homing/flow/observation.h"
+#include "homing/v1/homing_service.pb.h"
+
+namespace homing::client {
+
+// Topics: /homing/answer (homing.v1.LocalizeResponse), and for each camera /homing/left/image (if
+// frames are sent) and /homing/left/annotations with flow vectors, landmarks and the answer in
+// words. Thread-safe.
+class AnswerBag {
+ public:
+  // Replaces the file. `flow` is how flow is computed. INVALID_ARGUMENT: not a regular file;
+  // PERMISSION_DENIED.
+  static absl::StatusOr<std::unique_ptr<AnswerBag>> Open(const std::string& path,
+                                                         const FlowOptions& flow);
+
+  // The same observations; what they show is kept until their answer. REQUIRES: `inner` and the bag
+  // outlive the result.
+  std::unique_ptr<ObservationStream> Watch(ObservationStream* inner);
+
+  // RESOURCE_EXHAUSTED.
+  absl::Status Add(const v1::LocalizeResponse& answer);
+  absl::Status Finish();
+
+ private:
+  friend class WatchedObservations;
+  // What one camera showed at one instant.
+  struct Picture {
+    std::unique_ptr<google::protobuf::Message> image;
+    std::optional<foxglove::ImageAnnotations> annotations;
+  };
+  struct Seen {
+    std::int64_t time_ns = 0;
+    std::array<Picture, 2> pictures;
+  };
+
+  AnswerBag(std::ofstream file, const FlowOptions& flow);
+  void Keep(const v1::Observation& observation);
+  void ForgetFlow();
+  absl::Status WritePictures(const v1::LocalizeResponse& answer, Seen seen);
+  std::uint16_t Channel(const std::string& topic, const google::protobuf::Message& message);
+
+  std::mutex mutex_;
+  std::ofstream file_;
+  bag::McapWriter writer_;
+  std::map<std::string, std::uint16_t> channels_;
+  FlowOptions flow_options_;
+  ObservationFlow flow_;
+  // Of observations without a time: a tenth of a second each, from now on.
+  std::int64_t start_ns_;
+  // Not answered yet.
+  std::map<std::int64_t, Seen> seen_;
+};
+
+}  // namespace homing::client
+
+#endif  // CLIENT_COMMAND_ANSWER_BAG_H_

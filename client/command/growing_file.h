@@ -1,0 +1,18 @@
+// A file that a command writes while it runs: what there is of it can be read at any time. Source:
+// own design.
+#ifndef CLIENT_COMMAND_GROWING_FILE_H_
+#define CLIENT_COMMAND_GROWING_FILE_H_
+
+#include <fstream>
+#include <string>
+
+#include "absl/status/statusor.h"
+
+namespace homing::client {
+
+// Replaces the file. INVALID_ARGUMENT: it is not a regular file; PERMISSION_DENIED.
+absl::StatusOr<std::ofstream> OpenGrowingFile(const std::string& path);
+
+}  // namespace homing::client
+
+#endif  // CLIENT_COMMAND_GROWING_FILE_H_

@@ -1,0 +1,38 @@
+// Bags. Input: a whole file; its first bytes choose the format.
+#include <unistd.h>
+
+#include <fstream>
+
+#include "client/bag/bag_source.h"
+#include "tests/fuzz/fuzz_input.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  namespace bag = homing::client::bag;
+  // In memory.
+  static const std::string path = "/dev/shm/homing_fuzz_bag_" + std::to_string(::getpid());
+  ::unlink(path.c_str());
+  std::ofstream(path, std::ios::binary)
+      .write(reinterpret_cast<const char*>(data), static_cast<std::streamsize>(size));
+  bag::BagLimits limits;
+  limits.max_chunk = 4 << 20;
+  const auto opened = bag::OpenBag(path, limits);
+  if (!opened.ok()) return 0;
+  for (const bag::BagTopic& topic : (*opened)->topics()) {
+    if (topic.messages.empty()) continue;
+    const auto source = bag::OpenBagSource({path, topic.name}, homing::Side::kLeft, limits);
+    if (!source.ok()) continue;
+    const std::int64_t count = (*source)->size();
+    // Chunks are decompressed again for each message that lies in another one.
+    for (std::int64_t i = 0; i < std::min<std::int64_t>(count, 20); ++i) {
+      const auto frame = (*source)->Next();
+      homing::fuzz::Require(frame.ok() && frame->has_value());
+    }
+    if (count <= 20) {
+      homing::fuzz::Require((*source)->keys().values.size() == static_cast<std::size_t>(count));
+    }
+    homing::fuzz::Require((*source)->Seek(count));
+    const auto end = (*source)->Next();
+    homing::fuzz::Require(end.ok() && !end->has_value());
+  }
+  return 0;
+}
