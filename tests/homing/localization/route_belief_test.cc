@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include "homing/localization/step_window.h"
@@ -10,13 +11,22 @@
 namespace homing {
 namespace {
 
+// Probability an observation that the speed changes.
+constexpr double kChange = 0.01;
+
+// Weighs steps alone: the odometer says nothing.
+StepMass Weigh(RouteBelief& belief, const std::vector<float>& factors) {
+  const std::vector<std::int16_t> no_ratios(factors.size(), SpeedEvidence::kNoRatio);
+  return belief.Weigh(factors, no_ratios, SpeedEvidence(0.1));
+}
+
 // All at one step, all directions and speeds.
 RouteBelief PeakAt(std::int64_t steps, std::int64_t at) {
   RouteBelief belief;
   belief.Grow(steps, 1.0);
   std::vector<float> factors(static_cast<std::size_t>(steps), 0.0F);
   factors[static_cast<std::size_t>(at)] = 1.0F;
-  belief.Weigh(factors);
+  Weigh(belief, factors);
   return belief;
 }
 
@@ -24,15 +34,49 @@ TEST(RouteBeliefTest, MotionKeepsMassAwayFromTheEnds) {
   RouteBelief belief = PeakAt(200, 100);
   EXPECT_NEAR(belief.Mass(), 1, 1e-5);
   for (int i = 0; i < 15; ++i) {
-    belief.Move();
+    belief.Move(kChange);
   }
   EXPECT_NEAR(belief.Mass(), 1, 1e-4);
+}
+
+TEST(RouteBeliefTest, MoveLosesMassOnlyBeyondTheEnds) {
+  RouteBelief inside = PeakAt(200, 100);
+  for (int i = 0; i < 10; ++i) {
+    EXPECT_NEAR(inside.Move(kChange), 0, 1e-4);
+  }
+  RouteBelief at_the_end = PeakAt(200, 199);
+  const double before = at_the_end.Mass();
+  const double lost = at_the_end.Move(kChange);
+  EXPECT_GT(lost, 0.2);
+  EXPECT_LT(lost, 0.6);
+  EXPECT_NEAR(at_the_end.Mass(), before * (1 - lost), 1e-5);
+}
+
+TEST(RouteBeliefTest, AddPutsMassAtThePlaceAndInTheDirectionAsked) {
+  RouteBelief belief = PeakAt(100, 10);
+  belief.Scale(0.25);
+  belief.Add({.first = 95, .last = 120, .homeward = false, .outward = true, .mass = 0.75});
+  EXPECT_NEAR(belief.Mass(), 1, 1e-5);
+  const auto added = belief.DirectionMass(95, 99);
+  EXPECT_NEAR(added[0], 0, 1e-6);
+  EXPECT_NEAR(added[1], 0.75, 1e-5);
+}
+
+TEST(RouteBeliefTest, TheOdometerSetsTheSpeed) {
+  for (const double speed : {0.25, 1.0, 4.0}) {
+    RouteBelief belief = PeakAt(400, 200);
+    const auto ratio = SpeedEvidence::IndexOf(static_cast<int>(20 * std::log2(speed)));
+    const std::vector<float> factors(400, 1.0F);
+    const std::vector<std::int16_t> ratios(400, ratio);
+    for (int i = 0; i < 5; ++i) belief.Weigh(factors, ratios, SpeedEvidence(0.02));
+    EXPECT_NEAR(std::log2(belief.MeanSpeed().absolute / speed), 0, 0.3) << speed;
+  }
 }
 
 TEST(RouteBeliefTest, MassThatRunsOffIsGone) {
   RouteBelief belief = PeakAt(20, 10);
   for (int i = 0; i < 40; ++i) {
-    belief.Move();
+    belief.Move(kChange);
   }
   EXPECT_LT(belief.Mass(), 0.5);
   EXPECT_GE(belief.Mass(), 0);
@@ -41,7 +85,7 @@ TEST(RouteBeliefTest, MassThatRunsOffIsGone) {
 TEST(RouteBeliefTest, HalfMovesTowardsHomeAndHalfAway) {
   RouteBelief belief = PeakAt(400, 200);
   for (int i = 0; i < 30; ++i) {
-    belief.Move();
+    belief.Move(kChange);
   }
   const auto before = belief.DirectionMass(0, 199);
   const auto after = belief.DirectionMass(201, 399);
@@ -54,7 +98,7 @@ TEST(RouteBeliefTest, HalfMovesTowardsHomeAndHalfAway) {
 TEST(RouteBeliefTest, SpeedsMoveByTheirStepsOnAverage) {
   RouteBelief belief = PeakAt(400, 100);
   for (int i = 0; i < 60; ++i) {
-    belief.Move();
+    belief.Move(kChange);
   }
   // Of what moves away from home at once the speed of the outbound journey or nearly so.
   const std::vector<float> mass = belief.Masses().mass;
@@ -73,14 +117,14 @@ TEST(RouteBeliefTest, SpeedsMoveByTheirStepsOnAverage) {
 TEST(RouteBeliefTest, ARobotSeldomChangesItsSpeed) {
   RouteBelief belief = PeakAt(800, 100);
   for (int i = 0; i < 100; ++i) {
-    belief.Move();
+    belief.Move(kChange);
   }
   // What has gone at the speed of the outbound journey.
   std::vector<float> factors(800, 0.0F);
   std::fill(factors.begin() + 195, factors.begin() + 206, 1.0F);
-  const double before = belief.Weigh(factors).Sum();
+  const double before = Weigh(belief, factors).Sum();
   for (int i = 0; i < 200; ++i) {
-    belief.Move();
+    belief.Move(kChange);
   }
   const std::vector<float> mass = belief.Masses().mass;
   EXPECT_GT(std::accumulate(mass.begin() + 375, mass.begin() + 426, 0.0), 0.65 * before);
@@ -102,8 +146,8 @@ TEST(RouteBeliefTest, AFocusHoldsTheSameAsAllSteps) {
   EXPECT_TRUE(focused.IsFocused());
   EXPECT_EQ(focused.focus_size(), 1);
   for (int i = 0; i < 20; ++i) {
-    all.Move(1e-8);
-    focused.Move(1e-8);
+    all.Move(kChange, 1e-8);
+    focused.Move(kChange, 1e-8);
   }
   EXPECT_LT(focused.focus_size(), 200);
   EXPECT_NEAR(focused.Mass(), all.Mass(), 1e-5);
@@ -122,7 +166,7 @@ TEST(RouteBeliefTest, AFocusGrowsAtTheEndOfTheJourney) {
   belief.Focus(1e-5, belief.Masses());
   belief.Grow(120, 0.01);
   for (int i = 0; i < 10; ++i) {
-    belief.Move();
+    belief.Move(kChange);
   }
   const auto moved = belief.DirectionMass(105, 119);
   EXPECT_GT(moved[1], 0.3);
@@ -133,7 +177,7 @@ TEST(RouteBeliefTest, WhatIsInNoFocusIsLeftBeyond) {
   belief.Grow(100, 1e-8);
   belief.Focus(1e-5, belief.Masses());
   EXPECT_EQ(belief.focus_size(), 0);
-  belief.Move(1e-9);
+  belief.Move(kChange, 1e-9);
   EXPECT_NEAR(belief.Mass(), 100 * 1.1e-8, 1e-12);
   EXPECT_TRUE(belief.Masses().mass.empty());
   belief.Unfocus();

@@ -57,7 +57,7 @@ class ProfileLikelihoodTest : public ::testing::Test {
   std::span<const float> See(const FlowField& field, std::size_t side = 0) {
     SeenProfiles seen;
     seen[side].emplace(field);
-    likelihood_.Compute({&ref_, 1}, seen, {&predicted_, 1});
+    likelihood_.Compute({&ref_, 1}, seen, {&predicted_, 1}, 1);
     return likelihood_.of(0);
   }
 
@@ -73,19 +73,8 @@ TEST_F(ProfileLikelihoodTest, TheStepItselfIsTheMostLikely) {
   for (int step = 0; step < kMapSteps; ++step) {
     const auto likelihood = See(fields_[static_cast<std::size_t>(step)]);
     EXPECT_EQ(std::ranges::max_element(likelihood) - likelihood.begin(), step);
-    EXPECT_GT(std::log(likelihood[static_cast<std::size_t>(step)]), likelihood_.OffRoute());
+    EXPECT_GT(likelihood_.Nearness(0, step, step), 0);
   }
-}
-
-TEST_F(ProfileLikelihoodTest, AForeignPlaceSpeaksForBeingOffTheRoute) {
-  std::mt19937_64 engine(8);
-  double mean = 0;
-  for (int i = 0; i < 20; ++i) {
-    for (const float value : See(RandomField(engine))) {
-      mean += double{value} / (20 * kMapSteps);
-    }
-  }
-  EXPECT_LT(std::log(mean), likelihood_.OffRoute());
 }
 
 TEST_F(ProfileLikelihoodTest, LearnsThatTheRobotIsNearer) {
@@ -136,15 +125,6 @@ TEST_F(ProfileLikelihoodTest, TheOtherSideSaysNothing) {
   EXPECT_FALSE(ProfileLikelihood::CanCompare({&ref_, 1}, {}));
   seen[0] = seen[1];
   EXPECT_TRUE(ProfileLikelihood::CanCompare({&ref_, 1}, seen));
-}
-
-TEST(EvidenceWeightTest, FewVectorsSayLittleButNeverNothing) {
-  EXPECT_EQ(EvidenceWeight(0), 1);
-  EXPECT_EQ(EvidenceWeight(25), kWholeWeight / 4);
-  EXPECT_EQ(EvidenceWeight(50), kWholeWeight);
-  EXPECT_EQ(EvidenceWeight(5000), kWholeWeight);
-  const float near = -3;
-  EXPECT_LT(ProfileRatio::Further(2)(near), ProfileRatio::Further(kWholeWeight)(near));
 }
 
 TEST(ProfileDistanceTest, IsZeroToItselfAndNearlySymmetric) {
@@ -234,8 +214,9 @@ TEST(ProfileRatioTest, MultipliesAsOneByOne) {
   // The narrow one reaches beyond both ends of the ratios.
   for (const DistanceScale scale : {DistanceScale{600, 0.01F}, DistanceScale{900, 1.5F}}) {
     std::vector<float> factors(distances.size(), 0.5F);
-    const ProfileRatio& ratio = ProfileRatio::Further(5);
-    ratio.Multiply(distances, scale, factors);
+    const std::vector<std::int16_t> bias(distances.size(), 0);
+    const ProfileRatio& ratio = ProfileRatio::OfWeight(1);
+    ratio.Multiply(distances, bias, scale, factors);
     for (std::size_t i = 0; i < distances.size(); ++i) {
       ASSERT_EQ(factors[i], 0.5F * ratio(scale.Deviations(distances[i]))) << distances[i];
     }

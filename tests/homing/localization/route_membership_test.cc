@@ -1,0 +1,30 @@
+#include "homing/localization/route_membership.h"
+
+#include <gtest/gtest.h>
+
+namespace homing {
+namespace {
+
+TEST(RouteMembershipTest, StartsAtThePrior) {
+  EXPECT_NEAR(RouteMembership(0.2).OnRoute(), 0.8, 1e-9);
+}
+
+TEST(RouteMembershipTest, LeavingTakesThatFractionOff) {
+  RouteMembership membership(0.2);
+  membership.Leave(0.5);
+  EXPECT_NEAR(membership.OnRoute(), 0.4, 1e-9);
+  membership.Leave(0);
+  EXPECT_NEAR(membership.OnRoute(), 0.4, 1e-9);
+}
+
+TEST(RouteMembershipTest, HoweverLongOffTheRouteSomeEvidenceBringsItBack) {
+  RouteMembership membership(0.2);
+  for (int i = 0; i < 1000; ++i) membership.Add(-5);
+  membership.Leave(1);
+  EXPECT_LT(membership.OnRoute(), 0.1);
+  for (int i = 0; i < 4; ++i) membership.Add(1);
+  EXPECT_GT(membership.OnRoute(), 0.5);
+}
+
+}  // namespace
+}  // namespace homing

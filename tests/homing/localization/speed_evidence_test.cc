@@ -1,0 +1,45 @@
+#include "homing/localization/speed_evidence.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace homing {
+namespace {
+
+TEST(SpeedEvidenceTest, TheMeasuredRatioIsTheLikeliestSpeed) {
+  for (const double noise : {0.0, 0.05, 0.3}) {
+    const SpeedEvidence evidence(noise);
+    for (std::size_t speed = 1; speed < kSpeedCount; ++speed) {
+      const auto ratio =
+          SpeedEvidence::IndexOf(static_cast<int>(std::lround(20 * std::log2(kSpeeds[speed]))));
+      for (std::size_t other = 1; other < kSpeedCount; ++other) {
+        EXPECT_GE(evidence.of(speed)[ratio], evidence.of(other)[ratio]) << speed << ", " << other;
+      }
+    }
+  }
+}
+
+TEST(SpeedEvidenceTest, NoRatioIsNeutralAndEveryValueIsPositive) {
+  const SpeedEvidence evidence(0.1);
+  for (std::size_t speed = 0; speed < kSpeedCount; ++speed) {
+    EXPECT_EQ(evidence.of(speed)[SpeedEvidence::kNoRatio], 1);
+    for (int index = 0; index < SpeedEvidence::kNoRatio; ++index) {
+      EXPECT_GT(evidence.of(speed)[index], 0);
+    }
+  }
+}
+
+TEST(SpeedEvidenceTest, ADifferenceOutOfRangeIsTheMostExtreme) {
+  EXPECT_EQ(SpeedEvidence::IndexOf(-100000), 0);
+  EXPECT_EQ(SpeedEvidence::IndexOf(0), SpeedEvidence::kMostCode);
+  EXPECT_EQ(SpeedEvidence::IndexOf(100000), 2 * SpeedEvidence::kMostCode);
+}
+
+TEST(SpeedEvidenceTest, AGoodOdometerIsFollowedAtOnce) {
+  EXPECT_NEAR(SpeedEvidence(0).change(), 1, 1e-9);
+  EXPECT_LT(SpeedEvidence(1).change(), 0.1);
+}
+
+}  // namespace
+}  // namespace homing
