@@ -77,7 +77,7 @@ TEST(FlowProfileTest, ParallaxIsRelativeToTheMeanSoThatSpeedCancels) {
   const auto at_speed = [](float speed) {
     FlowField field = Even(16, 10, speed);
     for (FlowVector& v : field.vectors) {
-      if (v.MidX() > 200) v = VectorAt(v.MidX(), v.MidY(), 2 * speed);
+      if (v.MidX() > 200) v = VectorAt(static_cast<float>(v.MidX()), static_cast<float>(v.MidY()), 2 * speed);
     }
     return MakeFlowProfile(field);
   };
