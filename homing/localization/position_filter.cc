@@ -10,8 +10,6 @@
 namespace homing {
 namespace {
 
-// Share of the moving mass that one direction must have to be told.
-constexpr double kDirectionMargin = 0.6;
 // Less on the route is nothing.
 constexpr double kNoMass = 1e-30;
 // Evidence of an observation: steps moved over correlation length, times this.
@@ -31,15 +29,6 @@ constexpr double kLandmarkWeight = 1;
 // The robot may have been carried away while the link was down.
 constexpr double kMostPrior = 0.95;
 constexpr std::int16_t kNoRatio = SpeedEvidence::kNoRatio;
-
-// Steps count from home.
-Direction DirectionOf(const std::array<double, 2>& mass) {
-  const double both = mass[0] + mass[1];
-  if (mass[0] > kDirectionMargin * both) {
-    return Direction::kHomeward;
-  }
-  return mass[1] > kDirectionMargin * both ? Direction::kOutward : Direction::kUnknown;
-}
 
 }  // namespace
 
@@ -300,33 +289,6 @@ PositionFilter::Best PositionFilter::FindBest(std::int64_t half) const {
     }
   }
   return best;
-}
-
-Position PositionFilter::Answer() const {
-  Position position;
-  position.unknown_probability = 1 - membership_.OnRoute();
-  if (!started_) {
-    return position;
-  }
-  if (position.unknown_probability >= options_.unknown_probability) {
-    position.outcome = Outcome::kUnknownPlace;
-    return position;
-  }
-  position.speed_ratio = speed_.outward;
-  if (has_offset_) position.path_offset = profile_likelihood_.MeanOffset();
-  const auto [journey, best] = FindBest(options_.tolerance_steps);
-  position.journey = static_cast<int>(journey);
-  const RouteBelief& belief = beliefs_[journey];
-  position.step = best.step;
-  position.interval_first = best.first;
-  position.interval_last = best.last;
-  position.probability = (1 - position.unknown_probability) * std::clamp(best.mass, 0.0, 1.0);
-  position.outcome =
-      position.probability >= options_.match_probability ? Outcome::kMatch : Outcome::kAmbiguous;
-  const auto last_step = static_cast<double>(std::max<std::int64_t>(1, belief.step_count() - 1));
-  position.progress_home = 1 - static_cast<double>(best.step) / last_step;
-  position.direction = DirectionOf(belief.DirectionMass(best.first, best.last));
-  return position;
 }
 
 }  // namespace homing

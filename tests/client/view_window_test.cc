@@ -69,6 +69,7 @@ Vectors Track(FrameSource& source) {
     const auto frame = source.Next();
     EXPECT_THAT(frame, IsOk());
     field = *tracker.Track(*DecodeGray((*frame)->view()));
+    tracker.Advance();
   }
   Vectors vectors;
   for (const FlowVector& v : field->vectors) {

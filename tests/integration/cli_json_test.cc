@@ -61,10 +61,11 @@ TEST_F(CliJsonTest, LocalizePrintsOneLineAnObservation) {
   const auto lines = ran.Json();
   ASSERT_GT(lines.size(), 15U);
   for (std::size_t i = 0; i < lines.size(); ++i) {
-    EXPECT_THAT(Keys(ran.lines[i]),
-                ElementsAre("sequence", "frame", "outcome", "motion", "journey", "step",
-                            "step_frame", "probability", "interval", "progress_home", "direction",
-                            "landmark", "similarity", "matches"));
+    EXPECT_THAT(
+        Keys(ran.lines[i]),
+        ElementsAre("sequence", "frame", "outcome", "motion", "journey", "step", "step_frame",
+                    "probability", "interval", "progress_home", "direction", "speed_ratio", "turn",
+                    "path_offset", "on_route", "landmark", "similarity", "matches"));
     EXPECT_EQ(lines[i]["sequence"], i);
     EXPECT_EQ(lines[i]["frame"], i);
   }

@@ -52,7 +52,7 @@ TEST(StoreSize, JourneysRecordedInTurnWasteLessThanHalfOfTheirPages) {
   EXPECT_LE(bytes, 60.0);
 }
 
-TEST(StoreSize, ACameraStepWithItsFlowProfileTakesAtMost160Bytes) {
+TEST(StoreSize, ACameraStepWithItsFlowProfileTakesAtMost180Bytes) {
   const TemporaryFolder folder;
   constexpr int kSteps = 4000;
   {
@@ -62,7 +62,8 @@ TEST(StoreSize, ACameraStepWithItsFlowProfileTakesAtMost160Bytes) {
   }
   const double bytes = static_cast<double>(std::filesystem::file_size(folder.File("homing.db")));
   RecordProperty("bytes_per_camera_step", std::to_string(bytes / (2 * kSteps)));
-  EXPECT_LE(bytes / (2 * kSteps), 160.0);
+  // Of these, 126 are the profile with its odometer reading.
+  EXPECT_LE(bytes / (2 * kSteps), 180.0);
   EXPECT_GE(bytes / (2 * kSteps), 60.0);
 }
 

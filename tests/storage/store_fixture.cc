@@ -128,9 +128,16 @@ std::vector<JourneyStep> WithProfiles(std::vector<JourneyStep> steps) {
   for (JourneyStep& step : steps) {
     for (std::size_t side = 0; side < step.profiles.size() && step.step % 7 != 3; ++side) {
       FlowProfile profile;
-      for (std::size_t cell = side; cell < profile.cells.size(); cell += 2) {
-        profile.cells[cell] = static_cast<std::uint8_t>(step.step * 31 + static_cast<int>(cell));
+      for (std::size_t cell = 0; cell < profile.cells.size(); ++cell) {
+        // Two neighbouring columns share their parallax code.
+        const auto parallax = static_cast<std::size_t>(step.step) * 3 + cell / 2 + side;
+        const auto count = static_cast<std::size_t>(step.step) * 5 + cell;
+        profile.cells[cell] = static_cast<std::uint8_t>((parallax & 15) << 4 | (count & 15));
       }
+      profile.odometer = {.median_x = static_cast<std::int16_t>(step.step - 25),
+                          .expansion = static_cast<std::int16_t>(7 * step.step),
+                          .length_code = static_cast<std::uint8_t>(1 + step.step % 200),
+                          .spread_code = static_cast<std::uint8_t>(1 + step.step % 99)};
       step.profiles[side] = profile;
     }
   }

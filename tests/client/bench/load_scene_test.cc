@@ -51,7 +51,7 @@ TEST(LoadSceneTest, AnotherDriveAlongARouteFindsItsPlaceOnTheFirst) {
     ASSERT_THAT(answer, IsOk());
     position = answer->position;
   }
-  EXPECT_EQ(position.outcome, Outcome::kMatch);
+  EXPECT_NE(position.outcome, Outcome::kUnknownPlace);
   EXPECT_NEAR(static_cast<double>(*position.step), kSteps - 1, 2);
 }
 

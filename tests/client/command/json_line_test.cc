@@ -59,7 +59,8 @@ TEST(JsonLineTest, LocalizeHasTheWordsOfTheContract) {
       ToJson(answer).dump(),
       R"({"sequence":12,"frame":12,"outcome":"MATCH","motion":"MOVING","journey":"robots/R/journeys/J",)"
       R"("step":207,"step_frame":208,"probability":0.93,"interval":[204,210],"progress_home":0.41,)"
-      R"("direction":"HOMEWARD","landmark":17,"similarity":0.62,"matches":[{"journey":)"
+      R"("direction":"HOMEWARD","speed_ratio":null,"turn":null,"path_offset":null,)"
+      R"("on_route":0.0,"landmark":17,"similarity":0.62,"matches":[{"journey":)"
       R"("robots/R/journeys/J","landmark":17,"step":207,"side":"LEFT","delta":5.1,"p":0.76,)"
       R"("p_t":0.62}]})");
 }

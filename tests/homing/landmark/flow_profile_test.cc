@@ -46,9 +46,9 @@ FlowField Even(int columns, int rows, float length) {
 }
 
 TEST(FlowProfileTest, CellsHoldTheWholeWeightOfTheVectors) {
-  // sqrt(n / 180) is the sum of the shares; codes are rounded.
-  EXPECT_NEAR(WeightOf(MakeFlowProfile(Even(16, 10, 2))), std::sqrt(160 / 180.0), 0.1);
-  EXPECT_NEAR(WeightOf(MakeFlowProfile(Even(32, 20, 2))), std::sqrt(640 / 180.0), 0.2);
+  // sqrt(n / 180) is the sum of the shares; a code is rounded by up to half, here to 2 and to 3.
+  EXPECT_NEAR(WeightOf(MakeFlowProfile(Even(16, 10, 2))), std::sqrt(160 / 180.0), 0.25);
+  EXPECT_NEAR(WeightOf(MakeFlowProfile(Even(32, 20, 2))), std::sqrt(640 / 180.0), 0.35);
 }
 
 TEST(FlowProfileTest, AVectorThatCrossesACellBorderChangesCodesByLittle) {
@@ -77,7 +77,8 @@ TEST(FlowProfileTest, ParallaxIsRelativeToTheMeanSoThatSpeedCancels) {
   const auto at_speed = [](float speed) {
     FlowField field = Even(16, 10, speed);
     for (FlowVector& v : field.vectors) {
-      if (v.MidX() > 200) v = VectorAt(static_cast<float>(v.MidX()), static_cast<float>(v.MidY()), 2 * speed);
+      if (v.MidX() > 200)
+        v = VectorAt(static_cast<float>(v.MidX()), static_cast<float>(v.MidY()), 2 * speed);
     }
     return MakeFlowProfile(field);
   };
