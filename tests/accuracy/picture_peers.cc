@@ -155,7 +155,8 @@ Answers PictureFilter(const Run& run, const Differences& differences, double slo
     belief.Move(0.05);
     belief.Scale(1 / std::max(belief.Mass(), 1e-20));
     belief.AddToEach(5e-4 / static_cast<double>(places));
-    belief.Weigh(factors, std::vector<std::int16_t>(factors.size(), SpeedEvidence::kNoRatio), speeds);
+    belief.Weigh(factors, std::vector<std::int16_t>(factors.size(), SpeedEvidence::kNoRatio),
+                 speeds);
     belief.Scale(1 / std::max(belief.Mass(), 1e-20));
     const StepWindow window = BestWindow(belief.Masses(), run.tolerance_steps, places);
     answers.push_back(

@@ -73,7 +73,8 @@ class ProfileLikelihoodTest : public ::testing::Test {
 TEST_F(ProfileLikelihoodTest, TheStepItselfIsTheMostLikely) {
   for (int step = 0; step < kMapSteps; ++step) {
     const auto likelihood = See(fields_[static_cast<std::size_t>(step)]);
-    EXPECT_EQ(std::ranges::max_element(likelihood) - likelihood.begin(), step);
+    // Evidence is bounded: another step may reach the bound too.
+    EXPECT_EQ(std::ranges::max(likelihood), likelihood[static_cast<std::size_t>(step)]);
     EXPECT_GT(likelihood_.Nearness(0, step, step), 0);
   }
 }
