@@ -69,7 +69,7 @@ stage_asan() { HOMING_PRESET=asan sh tests/run.sh; }
 # Sources outside tests/, as they are compiled together; nothing is compiled but what they include.
 stage_tidy() {
   cmake --preset tidy
-  cmake --build --preset tidy --target homing_proto_sources
+  cmake --build --preset tidy --target homing_proto_sources homing_foxglove_sources
   run-clang-tidy -quiet -p build/tidy -j "$jobs" -extra-arg=-Wno-unknown-warning-option '^(?!.*(\.pb\.cc|/homing_proto\.dir/.*)$)'
 }
 

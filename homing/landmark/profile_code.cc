@@ -81,10 +81,11 @@ FlowProfile Resample(const OldCells& old) {
       }
       const int code =
           both > 0 ? std::clamp(static_cast<int>(std::lround(parallax / both)), 1, 15) : 0;
-      for (int i = 0; i < 2; ++i) {
-        profile.cells[static_cast<std::size_t>(row * FlowProfile::kColumns + pair + i)] =
-            static_cast<std::uint8_t>(code << 4 | count_codes[static_cast<std::size_t>(i)]);
-      }
+      const int cell = row * FlowProfile::kColumns + pair;
+      const auto first = profile.cells.begin() + cell;
+      std::ranges::transform(count_codes, first, [code](int count) {
+        return static_cast<std::uint8_t>(code << 4 | count);
+      });
     }
   }
   return profile;

@@ -90,6 +90,7 @@ void ProfileRatio::Multiply(std::span<const std::uint16_t> distances,
 const ProfileRatio& ProfileRatio::OfWeight(double weight) {
   static const auto ratios = [] {
     std::vector<ProfileRatio> all;
+    all.reserve(kWeights);
     for (int i = 0; i < kWeights; ++i) {
       all.push_back(ProfileRatio(std::pow(2, -0.5 * i)));
     }
