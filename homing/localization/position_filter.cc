@@ -11,7 +11,7 @@ namespace homing {
 namespace {
 
 // Less on the route is nothing.
-constexpr double kNoMass = 1e-30;
+constexpr double kNoMass = 1e-12;
 // Evidence of an observation: steps moved over correlation length, times this.
 constexpr double kEvidencePerLength = 1.5;
 // Log odds an observation of full weight, for each unit of nearness, which is bounded.
@@ -262,11 +262,14 @@ void PositionFilter::Unfocus() {
 }
 
 void PositionFilter::Normalise(double mass) {
-  for (std::size_t i = 0; i < beliefs_.size(); ++i) {
+  for (RouteBelief& belief : beliefs_) {
     if (mass > kNoMass) {
-      beliefs_[i].Scale(1 / mass);
+      belief.Scale(1 / mass);
     } else {
-      beliefs_[i].AddToEach(1 / static_cast<double>(step_count_));
+      // Nothing is left of the belief: the robot may be anywhere.
+      const std::int64_t steps = belief.step_count();
+      belief = RouteBelief();
+      belief.Grow(steps, 1 / static_cast<double>(step_count_));
     }
   }
   if (mass > kNoMass) {

@@ -117,6 +117,27 @@ TEST_F(ProfileLikelihoodTest, ALongForeignWayLeavesTheOddsBounded) {
   EXPECT_LT(position.unknown_probability, 0.96);
 }
 
+// The belief loses nearly all its mass beyond the ends of a short map, time and again.
+TEST_F(ProfileLikelihoodTest, ALongForeignWayOnAShortMapKeepsTheNumbersFinite) {
+  JourneyMap map;
+  for (int step = 0; step < 15; ++step) {
+    JourneyStep recorded{
+        .step = step, .motion = Motion::kMoving, .fingerprints = {}, .profiles = {}};
+    recorded.profiles[0] = MakeFlowProfile(fields_[static_cast<std::size_t>(step)]);
+    ASSERT_TRUE(map.Append(recorded).ok());
+  }
+  const JourneyRef ref{&name_, &map};
+  std::mt19937_64 engine(12);
+  PositionFilter filter{PositionOptions{}};
+  for (int i = 0; i < 3000; ++i) {
+    SeenProfiles seen;
+    seen[0].emplace(Nearer(RandomField(engine), i % 2 == 0 ? 8.0F : 6.0F));
+    const Position position = filter.Update({&ref, 1}, Motion::kMoving, {}, seen);
+    ASSERT_TRUE(std::isfinite(position.unknown_probability)) << i;
+    ASSERT_LE(position.probability, 1 - position.unknown_probability + 1e-9) << i;
+  }
+}
+
 TEST_F(ProfileLikelihoodTest, TheOtherSideSaysNothing) {
   SeenProfiles seen;
   seen[1].emplace(fields_[3]);
