@@ -35,15 +35,15 @@ SpeedEvidence::SpeedEvidence(double noise) {
   change_ = kPoorChange + (1 - kPoorChange) * good;
   const double width = std::max(kLeastWidth, kWidthOfNoise * noise);
   for (std::size_t speed = 0; speed < kSpeedCount; ++speed) {
-    for (int code = -kMostCode; code <= kMostCode; ++code) {
-      const double ratio = static_cast<double>(code) / CameraOdometer::kPerOctave;
+    for (std::size_t index = 0; index < kNoRatio; ++index) {
+      const double code = static_cast<double>(index) - kMostCode;
+      const double ratio = code / CameraOdometer::kPerOctave;
       const double likelihood =
           speed == 0
               ? (1 - kOutlierFraction) * std::exp(-std::max(0.0, ratio - kStanding) / width) +
                     kOutlierFraction * kOutlierFraction
               : Likelihood(std::abs(ratio - std::log2(kSpeeds[speed])), width);
-      tables_[speed][static_cast<std::size_t>(code + kMostCode)] =
-          static_cast<float>(std::pow(likelihood, weight));
+      tables_[speed][index] = static_cast<float>(std::pow(likelihood, weight));
     }
     tables_[speed][kNoRatio] = 1;
   }
