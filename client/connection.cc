@@ -134,7 +134,8 @@ absl::Status Connection::Retry(const std::stop_token& stop,
   while (true) {
     absl::Status status = call();
     if (!IsRetriable(status) || Clock::now() >= deadline) return status;
-    const auto wait = std::max(backoff.Next(), RetryDelay(status).value_or(backoff.Next()));
+    const auto wait =
+        std::max(backoff.Next(), RetryDelay(status).value_or(std::chrono::milliseconds(0)));
     if (!SleepFor(wait, stop)) return absl::CancelledError("stopped");
   }
 }

@@ -125,6 +125,19 @@ TEST(ConnectionTest, RetriesUntilTheCallSucceeds) {
   EXPECT_EQ(calls, 3);
 }
 
+TEST(ConnectionTest, WaitsOneStepOfTheBackoffBeforeEachAttempt) {
+  const auto connection = Connection::Open({});
+  ASSERT_THAT(connection, IsOk());
+  int calls = 0;
+  const auto begin = std::chrono::steady_clock::now();
+  EXPECT_THAT(
+      connection->Retry(
+          {}, [&] { return ++calls < 4 ? absl::UnavailableError("draining") : absl::OkStatus(); }),
+      IsOk());
+  // 100 + 170 + 289 ms at most. Two steps an attempt would take 1.4 s at least.
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::milliseconds(1300));
+}
+
 TEST(ConnectionTest, DoesNotRetryOtherErrors) {
   const auto connection = Connection::Open({});
   ASSERT_THAT(connection, IsOk());
