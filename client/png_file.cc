@@ -2,7 +2,9 @@
 
 #include <spng.h>
 
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
 #include <memory>
 
 #include "absl/strings/str_cat.h"
@@ -26,8 +28,11 @@ absl::Status WritePng(const std::string& path, const SourceFrame& gray) {
     error = spng_encode_image(context.get(), gray.data.data(), gray.data.size(), SPNG_FMT_PNG,
                               SPNG_ENCODE_FINALIZE);
   }
-  if (error == 0 && std::fflush(file.get()) == 0) return absl::OkStatus();
-  return absl::InternalError(absl::StrCat(path, ": ", spng_strerror(error)));
+  if (error != 0) return absl::InternalError(absl::StrCat(path, ": ", spng_strerror(error)));
+  if (std::fflush(file.get()) != 0) {
+    return absl::InternalError(absl::StrCat(path, ": ", std::strerror(errno)));
+  }
+  return absl::OkStatus();
 }
 
 }  // namespace homing::client
