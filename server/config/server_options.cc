@@ -4,6 +4,7 @@
 #include "absl/strings/str_cat.h"
 #include "homing/base/range_check.h"
 #include "homing/base/status_macros.h"
+#include "homing/flow/observation.h"
 #include "server/config/option_groups.h"
 
 namespace homing::server {
@@ -33,7 +34,8 @@ absl::Status Validate(const ServerOptions& options) {
       CheckRange<std::int64_t>("max-message", options.max_message, 65'536, 268'435'456));
   HOMING_RETURN_IF_ERROR(
       CheckRange<std::int64_t>("max-pixels", options.max_pixels, 256, 268'435'456));
-  HOMING_RETURN_IF_ERROR(CheckRange("max-vectors", options.max_vectors, 1, 10'000'000));
+  HOMING_RETURN_IF_ERROR(
+      CheckRange("max-vectors", options.max_vectors, 1, static_cast<int>(kMaxFlowVectors)));
   HOMING_RETURN_IF_ERROR(CheckRange("workers", options.workers, 0, 1024));
   HOMING_RETURN_IF_ERROR(
       CheckRange<std::int64_t>("map-cache", options.map_cache, 0, std::int64_t{1} << 50));

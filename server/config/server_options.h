@@ -39,7 +39,7 @@ struct ServerOptions {
   std::int64_t max_message = std::int64_t{16} << 20;
   // Largest frame, pixels. [256, 268'435'456].
   std::int64_t max_pixels = std::int64_t{16} << 20;
-  // Most flow vectors of one camera at one instant. [1, 10'000'000].
+  // Most flow vectors of one camera at one instant. [1, kMaxFlowVectors].
   int max_vectors = 100'000;
   // Threads that compute; 0: one a core. [0, 1024].
   int workers = 0;

@@ -147,6 +147,11 @@ TEST_F(ServerOptionsTest, LimitsAreChecked) {
   options.tls_crl_dir = "crl";
   EXPECT_THAT(Validate(options),
               StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("tls-client-ca")));
+  // A camera's flow is never taken with more than 100,000 vectors.
+  options = {};
+  options.max_vectors = 100'001;
+  EXPECT_THAT(Validate(options),
+              StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("max-vectors")));
   options = {};
   options.max_message = 1;
   EXPECT_THAT(Validate(options),
