@@ -62,6 +62,8 @@ IncomingCall::IncomingCall(ServiceCore* core, const grpc::ServerContextBase& con
     caller_ = *std::move(caller);
     robot_ = caller_.identity;
   }
+  static std::atomic<std::int64_t> calls = 0;
+  rate_key_ = robot_.empty() ? absl::StrCat("call/", ++calls) : robot_;
 }
 
 IncomingCall::~IncomingCall() {
@@ -97,6 +99,7 @@ absl::Status IncomingCall::Authorize(const std::string& resource) {
   HOMING_RETURN_IF_ERROR(server::Authorize(caller_, rpc_, resource, &core_->catalog));
   if (core_->access->is_open()) {
     robot_ = RobotNamed(resource);
+    rate_key_ = robot_.empty() ? rate_key_ : robot_;
     return is_stream_ ? EnterStream() : absl::OkStatus();
   }
   return absl::OkStatus();
@@ -104,7 +107,7 @@ absl::Status IncomingCall::Authorize(const std::string& resource) {
 
 absl::Status IncomingCall::TakeObservation() {
   core_->metrics->ObservationReceived(rpc_);
-  return core_->rates.Take(robot_, core_->options.clock());
+  return core_->rates.Take(rate_key_, core_->options.clock());
 }
 
 grpc::Status IncomingCall::Finish(const absl::Status& status) {

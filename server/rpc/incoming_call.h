@@ -52,6 +52,9 @@ class IncomingCall {
   Caller caller_;
   // Whose limits apply: the caller's, or, when nobody is asked who they are, the robot named.
   std::string robot_;
+  // As robot_. A call that names no robot has a key that no other call has: robots that localise on
+  // a wildcard do not use up each other's rate.
+  std::string rate_key_;
   std::atomic<bool> finished_ = false;
 
   std::mutex mutex_;

@@ -73,6 +73,21 @@ TEST_F(LimitsTest, ObservationsASecondAndNothingAcknowledgedIsLost) {
   EXPECT_EQ(later.Record(test::FlowAt(10)).next_sequence(), 11);
 }
 
+TEST_F(LimitsTest, RobotsThatLocaliseOnAWildcardDoNotSlowEachOther) {
+  options_.limits.max_robot_rate = 5;
+  Restart();
+  RecordFlow(0, 5);
+  Localizing first(homing_.get(), LocalizeOn("robots/-/journeys/-"));
+  Localizing second(homing_.get(), LocalizeOn("robots/-/journeys/-"));
+  for (int place = 0; place < 10; ++place) {
+    first.Localize(test::FlowAt(place));
+    second.Localize(test::FlowAt(place));
+  }
+  EXPECT_THAT(second.Close(), IsGrpcOk());
+  first.Send(test::FlowAt(10));
+  ExpectExhausted(first.AwaitEnd(), "RATE");
+}
+
 TEST_F(LimitsTest, JourneysAndBytesOfOneRobot) {
   options_.limits.max_robot_journeys = 2;
   Restart();
