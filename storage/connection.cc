@@ -68,14 +68,20 @@ absl::StatusOr<std::unique_ptr<Connection>> Connection::Open(const std::string& 
 absl::Status Connection::Run(const Body& body) { return Guard(body); }
 
 absl::Status Connection::Transact(const char* begin, const Body& body) {
-  absl::Status status = Guard([&] {
-    database_.exec(begin);
-    absl::Status result = body();
-    if (result.ok()) database_.exec("COMMIT");
-    return result;
-  });
-  if (!status.ok()) RollBack();
-  return status;
+  try {
+    absl::Status status = Guard([&] {
+      database_.exec(begin);
+      absl::Status result = body();
+      if (result.ok()) database_.exec("COMMIT");
+      return result;
+    });
+    if (!status.ok()) RollBack();
+    return status;
+  } catch (...) {
+    // Out of memory, for example.
+    RollBack();
+    throw;
+  }
 }
 
 void Connection::RollBack() {

@@ -5,10 +5,11 @@
 namespace homing::storage {
 
 absl::Status QueryConnections::Read(const std::function<absl::Status(Connection&)>& body) {
-  HOMING_ASSIGN_OR_RETURN(std::unique_ptr<Connection> connection, Take());
-  absl::Status status = connection->Read([&] { return body(*connection); });
-  GiveBack(std::move(connection));
-  return status;
+  HOMING_ASSIGN_OR_RETURN(std::unique_ptr<Connection> taken, Take());
+  // Gives it back when `body` throws, too.
+  const auto give_back = [this](Connection* used) { GiveBack(std::unique_ptr<Connection>(used)); };
+  const std::unique_ptr<Connection, decltype(give_back)> connection(taken.release(), give_back);
+  return connection->Read([&] { return body(*connection); });
 }
 
 absl::StatusOr<std::unique_ptr<Connection>> QueryConnections::Take() {
