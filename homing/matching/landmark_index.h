@@ -31,7 +31,8 @@ class LandmarkIndex {
   // Whether a search covers a journey, by its number.
   using Covers = std::function<bool(int journey)>;
 
-  // The number of a new journey. REQUIRES: no journey of that name is in the index.
+  // The number of a new journey, which may have been that of one removed and swept. REQUIRES: no
+  // journey of that name is in the index.
   int AddJourney(std::string name, const DeviationModel& model);
   // REQUIRES: the journey is in the index; the rules of JourneyMap::Append hold for the step.
   void Append(int journey, const JourneyStep& step);
@@ -41,9 +42,9 @@ class LandmarkIndex {
   // fewer bytes. REQUIRES: nothing was appended before; no search between them.
   void BeginLoading() { loading_ = true; }
   void EndLoading();
-  // No search finds it any more; what it took is given back by Sweep.
+  // No search finds it any more; Sweep frees its memory and its number.
   void Remove(int journey);
-  // Goes over `buckets` buckets and takes out what was removed: call it again while it says true.
+  // Frees what was removed from the next `buckets` buckets. False: nothing is left to free.
   bool Sweep(std::uint32_t buckets);
 
   // As Matcher::Find over all journeys that are covered. Match::journey is the number here.
@@ -54,7 +55,7 @@ class LandmarkIndex {
                                       const Covers& covers, SearchCost* cost = nullptr) const;
 
   const std::string& name(int journey) const { return Of(journey).name; }
-  // Numbers given out so far; removed journeys keep theirs.
+  // Numbers in use, and those of removed journeys.
   int journey_count() const { return static_cast<int>(journeys_.size()); }
   bool removed(int journey) const { return Of(journey).removed; }
   // Of journeys that are not removed.
@@ -88,6 +89,9 @@ class LandmarkIndex {
 
   const Journey& Of(int journey) const { return journeys_[static_cast<std::size_t>(journey)]; }
   void Insert(int journey, std::int64_t step, Side side, const Fingerprint& fingerprint);
+  std::uint32_t NewLandmark(const LandmarkOf& landmark);
+  void EndSweep();
+  bool IsSweeping() const { return !removed_.empty() || !sweeping_.empty(); }
   void Search(const SeenSides& seen, Finder* finder, SearchCost* cost) const;
 
   // Its elements never move.
@@ -97,10 +101,15 @@ class LandmarkIndex {
   ChunkedArray<LandmarkOf, 1024> landmarks_;
   std::int64_t fingerprint_count_ = 0;
   bool loading_ = false;
-  // Where Sweep goes on: a tree, counted over groups and sides, and a bucket.
+  // Removed since the sweep under way began; removed before it, by number.
+  std::vector<int> removed_;
+  std::vector<int> sweeping_;
+  // Where Sweep continues: a tree, counted over groups and sides, and a bucket.
   std::size_t sweep_tree_ = 0;
   std::uint32_t sweep_bucket_ = 0;
-  bool sweep_due_ = false;
+  // Swept: no tree holds an entry of them.
+  std::vector<int> free_journeys_;
+  std::vector<std::uint32_t> free_landmarks_;
 };
 
 }  // namespace homing

@@ -129,7 +129,8 @@ int FleetIndex::JourneyOf(const std::string& name, const JourneySettings& settin
   if (found == numbers_.end()) {
     const int journey = index_.AddJourney(name, settings.deviation_model);
     numbers_[name] = journey;
-    entries_.push_back({same, 0});
+    entries_.resize(std::max(entries_.size(), static_cast<std::size_t>(journey) + 1));
+    entries_[static_cast<std::size_t>(journey)] = {same, 0};
     ++settings_[same].journeys;
     return journey;
   }
@@ -144,11 +145,18 @@ std::size_t FleetIndex::SettingsOf(const JourneySettings& settings) {
   const auto found = std::find_if(settings_.begin(), settings_.end(), [&](const Settings& known) {
     return known.settings == settings;
   });
-  if (found == settings_.end()) {
+  if (found != settings_.end()) {
+    return static_cast<std::size_t>(found - settings_.begin());
+  }
+  // A removed journey may still name the slot; no search covers that journey.
+  const auto unused = std::find_if(settings_.begin(), settings_.end(),
+                                   [](const Settings& known) { return known.journeys == 0; });
+  if (unused == settings_.end()) {
     settings_.push_back({settings, 0});
     return settings_.size() - 1;
   }
-  return static_cast<std::size_t>(found - settings_.begin());
+  unused->settings = settings;
+  return static_cast<std::size_t>(unused - settings_.begin());
 }
 
 void FleetIndex::Remove(const std::string& name) {

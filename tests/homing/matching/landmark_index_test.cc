@@ -29,8 +29,15 @@ struct Fleet {
   std::set<int> removed;
 
   int Add(const std::string& name, const DeviationModel& model = {}) {
-    models.push_back(model);
-    return index.AddJourney(name, model);
+    const int journey = index.AddJourney(name, model);
+    const auto number = static_cast<std::size_t>(journey);
+    models.resize(std::max(models.size(), number + 1));
+    models[number] = model;
+    // The number of a removed journey may be given out again.
+    if (removed.erase(journey) > 0) {
+      std::erase_if(all, [journey](const auto& stored) { return stored.journey == journey; });
+    }
+    return journey;
   }
   void Put(int journey, std::int64_t step, Side side, const Fingerprint& f) {
     JourneyStep recorded;
@@ -181,6 +188,7 @@ TEST_P(LandmarkIndexProperty, FindsWhatAScanFindsAfterLoadingAppendingAndRemovin
       // Removed and not yet swept, half swept, all swept: searches never see it.
       for (int i = Uniform(0, 40); i > 0 && fleet.index.Sweep(3); --i) {
       }
+      fleet.Add(absl::StrCat("robots/r/journeys/", round), {.mu = -3.0, .sigma = 0.1});
     }
     const int covered = Uniform(0, 12);
     const auto covers = [covered](int journey) { return journey < covered; };
@@ -293,6 +301,24 @@ TEST(LandmarkIndexTest, WhatIsSweptMakesRoom) {
   }
   EXPECT_EQ(index.fingerprint_count(), 0);
   EXPECT_LT(index.MemoryBytes(), 2 * bytes);
+}
+
+TEST(LandmarkIndexTest, NumbersOfWhatIsSweptAreGivenOutAgain) {
+  LandmarkIndex index;
+  std::size_t bytes = 0;
+  for (int round = 0; round < 3'000; ++round) {
+    const int journey = index.AddJourney(absl::StrCat("robots/r/journeys/", round), {});
+    JourneyStep recorded;
+    for (int landmark = 0; landmark < 10; ++landmark) {
+      recorded.fingerprints.push_back({Side::kLeft, {1.0F, 2.0F, 3, landmark}, 0});
+    }
+    index.Append(journey, recorded);
+    index.Remove(journey);
+    index.Sweep(64);
+    if (round == 100) bytes = index.MemoryBytes();
+  }
+  EXPECT_LT(index.journey_count(), 10);
+  EXPECT_EQ(index.MemoryBytes(), bytes);
 }
 
 }  // namespace
