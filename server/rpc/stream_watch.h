@@ -23,6 +23,11 @@ class StreamWatch {
     const std::chrono::seconds most(core_->options.limits.idle_stream_s);
     return most.count() > 0 && core_->options.clock() - moved_.load() > most;
   }
+  // The client cancelled the call, its link broke, or BreakOff ended it.
+  bool IsCancelled() const {
+    const std::lock_guard lock(mutex_);
+    return context_ == nullptr || context_->IsCancelled();
+  }
   // The client sees CANCELLED; what is under way ends as when the link breaks.
   void BreakOff() {
     const std::lock_guard lock(mutex_);
@@ -39,7 +44,7 @@ class StreamWatch {
  private:
   ServiceCore* const core_;
   // Recursive: gRPC may call back, up to OnDone, before TryCancel returns.
-  std::recursive_mutex mutex_;
+  mutable std::recursive_mutex mutex_;
   grpc::ServerContextBase* context_;
   std::atomic<TimePoint> moved_;
 };

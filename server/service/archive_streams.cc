@@ -102,6 +102,10 @@ absl::Status ImportStream::Store() {
   HOMING_ASSIGN_OR_RETURN(ArchivedJourney archive, DecodeJourney(file_));
   archive.record.name = name_;
   archive.record.create_time_ns = WallClockNs();
+  // gRPC reports the end of a cancelled stream like the end of a complete one.
+  if (watch_.IsCancelled()) {
+    return absl::CancelledError("the client cancelled the import");
+  }
   HOMING_ASSIGN_OR_RETURN(const storage::JourneyRecord record,
                           core_->catalog.Import(archive.record, archive.map));
   *response_->mutable_journey() = EncodeJourneyRecord(record);

@@ -249,6 +249,29 @@ TEST_F(JourneyServiceTest, AnImportedFileExportsToTheSameBytes) {
   EXPECT_EQ(Export("robots/q/journeys/copy"), file);
 }
 
+TEST_F(JourneyServiceTest, ACancelledImportStoresNothing) {
+  ASSERT_THAT(Create(), IsGrpcOk());
+  RecordFlow(0, 10);
+  const std::string file = Export();
+  for (int i = 0; i < 10; ++i) {
+    grpc::ClientContext context;
+    v1::ImportJourneyResponse response;
+    const auto stream = journeys_->ImportJourney(&context, &response);
+    v1::ImportJourneyRequest request;
+    request.set_name("robots/r/journeys/copy");
+    ASSERT_TRUE(stream->Write(request));
+    request.set_chunk(file);
+    ASSERT_TRUE(stream->Write(request));
+    context.TryCancel();
+    EXPECT_THAT(stream->Finish(), GrpcStatusIs(grpc::StatusCode::CANCELLED, HasSubstr("")));
+  }
+  // The server has ended them all once it has drained.
+  StartServer();
+  v1::ListJourneysResponse page;
+  ASSERT_THAT(List("robots/-", 0, "", &page), IsGrpcOk());
+  EXPECT_EQ(page.journeys_size(), 1);
+}
+
 TEST_F(JourneyServiceTest, WrongImportsAreRefused) {
   ASSERT_THAT(Create(), IsGrpcOk());
   RecordFlow(0, 10);
