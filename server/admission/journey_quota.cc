@@ -123,7 +123,7 @@ absl::Status JourneyQuota::CheckGrowth(const std::string& name) {
 }
 
 absl::StatusOr<std::int64_t> JourneyQuota::DeleteExpired(std::int64_t now_ns) {
-  if (limits_.delete_after_s == 0) {
+  if (limits_.delete_after_s == 0 || catalog_->read_only()) {
     return 0;
   }
   const std::int64_t before_ns = now_ns - limits_.delete_after_s * kSecondNs;

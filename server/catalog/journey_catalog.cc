@@ -32,6 +32,11 @@ JourneySettings WithSizesOf(JourneySettings settings, const JourneySettings& kno
   return settings;
 }
 
+absl::Status NoneCovered(const JourneyName& pattern) {
+  return absl::NotFoundError(
+      absl::StrCat("journey is \"", pattern.ToString(), "\"; no journey is covered by it"));
+}
+
 bool IsSameJourney(const JourneyRecord& wanted, const JourneyRecord& present) {
   return present.state == storage::JourneyState::kActive && !wanted.writer_id.empty() &&
          wanted.writer_id == present.writer_id &&
@@ -55,9 +60,9 @@ std::shared_ptr<LiveJourney> JourneyCatalog::Use(Cached* cached) {
   return cached->journey;
 }
 
-void JourneyCatalog::LetGoOfUnused() {
+std::int64_t JourneyCatalog::EvictUnused() {
   if (options_.cache_bytes <= 0) {
-    return;
+    return 0;
   }
   const std::lock_guard lock(mutex_);
   std::int64_t bytes = 0;
@@ -70,18 +75,19 @@ void JourneyCatalog::LetGoOfUnused() {
     }
   }
   if (bytes <= options_.cache_bytes) {
-    return;
+    return bytes;
   }
   std::sort(unused.begin(), unused.end(),
             [](const auto& a, const auto& b) { return a.first < b.first; });
-  // Some room is made at once, so that this is not done at each use.
+  // Evict down to 90 %, so that the next use does not evict again.
   for (const auto& [last_used, cached] : unused) {
     if (bytes <= options_.cache_bytes / 10 * 9) {
-      return;
+      break;
     }
     bytes -= cached->second.journey->MemoryBytes();
     live_.erase(cached);
   }
+  return bytes;
 }
 
 absl::StatusOr<std::shared_ptr<LiveJourney>> JourneyCatalog::OpenLocked(const std::string& name) {
@@ -95,16 +101,20 @@ absl::StatusOr<std::shared_ptr<LiveJourney>> JourneyCatalog::OpenLocked(const st
   return journey;
 }
 
-absl::StatusOr<std::shared_ptr<LiveJourney>> JourneyCatalog::Open(const std::string& name) {
-  auto journey = Find(name);
-  if (!journey) {
-    const std::lock_guard lock(StripeOf(name));
-    HOMING_ASSIGN_OR_RETURN(journey, OpenLocked(name));
+absl::StatusOr<std::shared_ptr<LiveJourney>> JourneyCatalog::FindOrOpen(const std::string& name) {
+  if (auto journey = Find(name)) {
+    return journey;
   }
+  const std::lock_guard lock(StripeOf(name));
+  return OpenLocked(name);
+}
+
+absl::StatusOr<std::shared_ptr<LiveJourney>> JourneyCatalog::Open(const std::string& name) {
+  HOMING_ASSIGN_OR_RETURN(auto journey, FindOrOpen(name));
   if (!journey->has_map()) {
     // Without the stripe: a long map keeps no writer waiting.
     HOMING_RETURN_IF_ERROR(journey->LoadMap());
-    LetGoOfUnused();
+    EvictUnused();
   }
   return journey;
 }
@@ -217,7 +227,7 @@ absl::Status JourneyCatalog::AddIfCovered(const JourneyName& pattern, const std:
   if (!Covers(pattern, parsed)) {
     return absl::OkStatus();
   }
-  auto journey = Open(name);
+  auto journey = FindOrOpen(name);
   if (!journey.ok()) {
     // Deleted since it was listed: it is not there, which is no error of a wildcard.
     return absl::IsNotFound(journey.status()) ? absl::OkStatus() : journey.status();
@@ -230,7 +240,7 @@ absl::StatusOr<LiveJourneys> JourneyCatalog::Resolve(const JourneyName& pattern,
                                                      const JourneyFilter& filter) {
   LiveJourneys journeys;
   if (!pattern.is_pattern()) {
-    HOMING_ASSIGN_OR_RETURN(auto journey, Open(pattern.ToString()));
+    HOMING_ASSIGN_OR_RETURN(auto journey, FindOrOpen(pattern.ToString()));
     journeys.push_back(std::move(journey));
     return journeys;
   }
@@ -249,10 +259,43 @@ absl::StatusOr<LiveJourneys> JourneyCatalog::Resolve(const JourneyName& pattern,
     after = page.back().name;
   }
   if (journeys.empty()) {
-    return absl::NotFoundError(
-        absl::StrCat("journey is \"", pattern.ToString(), "\"; no journey is covered by it"));
+    return NoneCovered(pattern);
   }
   return journeys;
+}
+
+absl::Status JourneyCatalog::LoadMap(const JourneyName& pattern, LiveJourney* journey) {
+  if (journey->has_map()) {
+    return absl::OkStatus();
+  }
+  HOMING_RETURN_IF_ERROR(journey->LoadMap());
+  const std::int64_t bytes = EvictUnused();
+  // A robot that names its journey is served at any size.
+  if (pattern.is_pattern() && bytes > options_.cache_bytes) {
+    return WithReason(
+        absl::ResourceExhaustedError(absl::StrCat(
+            "journey is \"", pattern.ToString(), "\"; the maps in use need more than map-cache, ",
+            options_.cache_bytes, " bytes; name fewer journeys, or raise map-cache")),
+        {"MAP_CACHE", {}});
+  }
+  return absl::OkStatus();
+}
+
+absl::Status JourneyCatalog::LoadMaps(const JourneyName& pattern, LiveJourneys* journeys) {
+  LiveJourneys loaded;
+  for (const std::shared_ptr<LiveJourney>& journey : *journeys) {
+    const absl::Status status = LoadMap(pattern, journey.get());
+    if (status.ok()) {
+      loaded.push_back(journey);
+    } else if (!pattern.is_pattern() || !absl::IsNotFound(status)) {
+      return status;
+    }
+  }
+  if (loaded.empty()) {
+    return NoneCovered(pattern);
+  }
+  *journeys = std::move(loaded);
+  return absl::OkStatus();
 }
 
 absl::StatusOr<WriterClaim> JourneyCatalog::Claim(const std::string& name,
@@ -265,7 +308,7 @@ absl::StatusOr<WriterClaim> JourneyCatalog::Claim(const std::string& name,
   auto journey = Find(name);
   if (!journey) {
     HOMING_ASSIGN_OR_RETURN(journey, OpenLocked(name));
-    LetGoOfUnused();
+    EvictUnused();
   }
   {
     const std::lock_guard table_lock(mutex_);

@@ -43,6 +43,7 @@ class JourneyCatalog {
                           FleetIndex* index = nullptr)
       : store_(store), options_(options), index_(index) {}
 
+  bool read_only() const { return store_->read_only(); }
   // Null: there is none.
   FleetIndex* index() const { return index_; }
 
@@ -68,10 +69,14 @@ class JourneyCatalog {
 
   // With its map, which is loaded on first use. NOT_FOUND.
   absl::StatusOr<std::shared_ptr<LiveJourney>> Open(const std::string& name);
-  // All that `pattern` covers and, if it is one, `filter` lets through, in order of name, with
-  // their maps. NOT_FOUND: none.
+  // All that `pattern` covers and, if it is one, `filter` lets through, in order of name. Loads no
+  // map. NOT_FOUND: none.
   absl::StatusOr<LiveJourneys> Resolve(const JourneyName& pattern,
                                        const JourneyFilter& filter = nullptr);
+  // Loads the maps of journeys that Resolve returned for `pattern`. Of a wildcard, drops those that
+  // were deleted meanwhile. NOT_FOUND: none is left. RESOURCE_EXHAUSTED: the maps of a wildcard,
+  // and those in use by others, need more memory than cache_bytes.
+  absl::Status LoadMaps(const JourneyName& pattern, LiveJourneys* journeys);
   // As LiveJourney::Claim; the writer is kept on disk. Loads no map. NOT_FOUND.
   absl::StatusOr<WriterClaim> Claim(const std::string& name, const std::string& writer_id,
                                     TimePoint now, WriterLease::Evict evict);
@@ -86,6 +91,9 @@ class JourneyCatalog {
 
   absl::Status AddIfCovered(const JourneyName& pattern, const std::string& name,
                             LiveJourneys* journeys);
+  absl::Status LoadMap(const JourneyName& pattern, LiveJourney* journey);
+  // NOT_FOUND: a journey of that name is neither in memory nor on disk.
+  absl::StatusOr<std::shared_ptr<LiveJourney>> FindOrOpen(const std::string& name);
 
   struct Cached {
     std::shared_ptr<LiveJourney> journey;
@@ -94,8 +102,8 @@ class JourneyCatalog {
   };
   // REQUIRES: mutex_.
   std::shared_ptr<LiveJourney> Use(Cached* cached);
-  // As cache_bytes says.
-  void LetGoOfUnused();
+  // As cache_bytes says. Returns the bytes that are still in use.
+  std::int64_t EvictUnused();
 
   storage::JourneyStore* const store_;
   const CatalogOptions options_;

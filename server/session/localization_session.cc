@@ -52,10 +52,13 @@ absl::StatusOr<std::unique_ptr<LocalizationSession>> LocalizationSession::Open(
     HOMING_RETURN_IF_ERROR(camera ? Validate(*camera) : absl::OkStatus());
   }
   std::unique_ptr<LocalizationSession> session(
-      new LocalizationSession(query, std::move(pattern), limits));
+      new LocalizationSession(catalog, query, std::move(pattern), limits));
   HOMING_ASSIGN_OR_RETURN(session->journeys_, catalog->Resolve(session->pattern_, query.filter));
   HOMING_RETURN_IF_ERROR(
       SelectJourneys(session->journeys_, session->pattern_, RobotOf(query)).status());
+  if (!session->pattern_.is_pattern()) {
+    HOMING_RETURN_IF_ERROR(catalog->LoadMaps(session->pattern_, &session->journeys_));
+  }
   return session;
 }
 
@@ -84,6 +87,7 @@ absl::Status LocalizationSession::Start(const Observation& observation) {
   selection.options.position = query_.position;
   HOMING_RETURN_IF_ERROR(Validate(selection.options));
   journeys_ = std::move(selection.journeys);
+  HOMING_RETURN_IF_ERROR(catalog_->LoadMaps(pattern_, &journeys_));
   localizer_.emplace(selection.options, limits_);
   return absl::OkStatus();
 }

@@ -37,6 +37,7 @@ class LocalizationSession {
 
   // The first may have any number; each one after must have the next: OUT_OF_RANGE. NOT_FOUND: the
   // journey, named, was deleted. FAILED_PRECONDITION: other camera or settings. INVALID_ARGUMENT.
+  // RESOURCE_EXHAUSTED: as JourneyCatalog::LoadMaps.
   absl::StatusOr<Localization> Localize(const Observation& observation);
 
   // Of the journey that a Localization numbers.
@@ -45,11 +46,13 @@ class LocalizationSession {
   }
 
  private:
-  LocalizationSession(const HomingQuery& query, JourneyName pattern, const DecodeLimits& limits)
-      : query_(query), pattern_(std::move(pattern)), limits_(limits) {}
+  LocalizationSession(JourneyCatalog* catalog, const HomingQuery& query, JourneyName pattern,
+                      const DecodeLimits& limits)
+      : catalog_(catalog), query_(query), pattern_(std::move(pattern)), limits_(limits) {}
   absl::Status CheckSequence(std::int64_t sequence);
   absl::Status Start(const Observation& observation);
 
+  JourneyCatalog* const catalog_;
   const HomingQuery query_;
   const JourneyName pattern_;
   const DecodeLimits limits_;

@@ -22,6 +22,16 @@ class JourneyQuotaTest : public SessionTest {
       ASSERT_THAT(catalog_->Finish(record.name, "writer", {}), IsOk());
     }
   }
+  void ReopenReadOnly() {
+    queue_.reset();
+    catalog_.reset();
+    store_.reset();
+    storage::StoreOptions options;
+    options.url = folder_.Database();
+    options.read_only = true;
+    store_ = storage::OpenJourneyStore(options).value();
+    catalog_ = std::make_unique<JourneyCatalog>(store_.get());
+  }
   bool IsThere(const std::string& id) { return catalog_->Get(Name(id)).ok(); }
   Limits limits_;
 };
@@ -91,6 +101,15 @@ TEST_F(JourneyQuotaTest, FinishedJourneysPastTheirTimeAreDeletedOnlyWhenToldTo) 
   EXPECT_EQ(quota.DeleteExpired(16 * kSecond).value(), 1);
   EXPECT_FALSE(IsThere("old"));
   EXPECT_TRUE(IsThere("new"));
+}
+
+TEST_F(JourneyQuotaTest, OfAReadOnlyStoreNothingIsDeletedAndNothingFails) {
+  Make("old", 1, true);
+  ReopenReadOnly();
+  limits_.delete_after_s = 1;
+  JourneyQuota quota(catalog_.get(), limits_);
+  EXPECT_THAT(quota.DeleteExpired(1'000'000'000'000), IsOk());
+  EXPECT_TRUE(IsThere("old"));
 }
 
 }  // namespace

@@ -204,5 +204,25 @@ TEST_F(SessionTest, MapsThatNoOneUsesMakeRoomForOthers) {
   EXPECT_EQ(*small.Open("robots/r0/journeys/j"), used);
 }
 
+TEST_F(SessionTest, AWildcardLoadsNoMoreMapsThanTheCacheHolds) {
+  for (int i = 0; i < 3; ++i) {
+    const std::string name = absl::StrCat("robots/r", i, "/journeys/j");
+    Create(name);
+    RecordFlow(0, 5, name);
+    ASSERT_THAT(catalog_->Finish(name, "writer", {}), IsOk());
+  }
+  LandmarkQuery query;
+  query.journey = "robots/-/journeys/-";
+  query.travel = Travel::kSame;
+  query.views[0] = test::FieldAt(2, Side::kLeft);
+  EXPECT_THAT(MatchLandmarks(catalog_.get(), query, {}), IsOk());
+  // Room for one map and the journeys' records.
+  JourneyCatalog small(store_.get(), CatalogOptions{.cache_bytes = 8000});
+  EXPECT_THAT(MatchLandmarks(&small, query, {}).status(),
+              StatusIs(absl::StatusCode::kResourceExhausted, HasSubstr("map-cache")));
+  query.journey = "robots/r1/journeys/j";
+  EXPECT_THAT(MatchLandmarks(&small, query, {}), IsOk());
+}
+
 }  // namespace
 }  // namespace homing::server
