@@ -4,8 +4,6 @@
 #include <grpcpp/security/credentials.h>
 
 #include <algorithm>
-#include <fstream>
-#include <sstream>
 
 #include "absl/strings/ascii.h"
 #include "absl/strings/match.h"
@@ -13,6 +11,8 @@
 #include "client/backoff.h"
 #include "client/rpc_status.h"
 #include "client/token_interceptor.h"
+#include "homing/base/field_error.h"
+#include "homing/base/file_text.h"
 #include "homing/base/status_macros.h"
 
 namespace homing::client {
@@ -27,11 +27,8 @@ constexpr std::chrono::milliseconds kSecondAttempt{400};
 
 absl::StatusOr<std::string> ReadPem(const std::string& flag, const std::string& path) {
   if (path.empty()) return std::string();
-  std::ifstream file(path, std::ios::binary);
-  if (!file) return absl::NotFoundError(absl::StrCat(flag, ": cannot read ", path));
-  std::ostringstream text;
-  text << file.rdbuf();
-  return text.str();
+  absl::StatusOr<std::string> text = ReadFile(path);
+  return text.ok() ? std::move(text) : Within(flag, text.status());
 }
 
 bool IsThisMachine(const std::string& address) {

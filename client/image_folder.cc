@@ -6,13 +6,12 @@
 #include <array>
 #include <cctype>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 
 #include "absl/strings/ascii.h"
 #include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
 #include "client/opencv_readers.h"
+#include "homing/base/file_text.h"
 #include "homing/base/status_macros.h"
 
 namespace homing::client {
@@ -60,12 +59,9 @@ std::vector<std::string> ListGlob(const std::string& pattern) {
 }
 
 absl::StatusOr<std::string> ReadBytes(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) return absl::NotFoundError(absl::StrCat("cannot read ", path));
-  std::ostringstream bytes;
-  bytes << file.rdbuf();
-  if (!file) return absl::InvalidArgumentError(absl::StrCat(path, " is empty or unreadable"));
-  return bytes.str();
+  HOMING_ASSIGN_OR_RETURN(std::string bytes, ReadFile(path));
+  if (bytes.empty()) return absl::InvalidArgumentError(absl::StrCat(path, " is empty"));
+  return bytes;
 }
 
 // By its first bytes, whatever the name says.

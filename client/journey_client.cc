@@ -5,6 +5,7 @@
 #include "client/chunk_file.h"
 #include "client/rpc_status.h"
 #include "client/unary_call.h"
+#include "homing/base/field_error.h"
 #include "homing/base/status_macros.h"
 
 namespace homing::client {
@@ -20,8 +21,7 @@ absl::StatusOr<JourneyName> ParseJourneyName(const std::string& name) {
   const bool good = parts.size() == 4 && parts[0] == "robots" && !parts[1].empty() &&
                     parts[2] == "journeys" && !parts[3].empty();
   if (!good) {
-    return absl::InvalidArgumentError(
-        absl::StrCat("journey is \"", name, "\"; it must be robots/ROBOT/journeys/JOURNEY"));
+    return TextMustBe("journey", name, "robots/ROBOT/journeys/JOURNEY");
   }
   return JourneyName{absl::StrCat("robots/", parts[1]), parts[3]};
 }

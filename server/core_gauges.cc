@@ -6,7 +6,7 @@
 #include <fstream>
 #include <string>
 
-#include "absl/strings/strip.h"
+#include "storage/database_url.h"
 
 namespace homing::server {
 namespace {
@@ -61,7 +61,7 @@ void SetLimits(const ServerOptions& options, Metrics* metrics) {
 
 void AddCoreGauges(const ServerOptions& options, ServiceCore* core) {
   Metrics* const metrics = core->metrics.get();
-  const std::string path(absl::StripPrefix(options.database, "sqlite:"));
+  const std::string path = storage::ParseDatabaseUrl(options.database).value_or("");
   metrics->AddGauge("homing_ingest_queue_depth", "Observations that wait for their transaction",
                     [core] { return static_cast<double>(core->queue.waiting()); });
   metrics->AddGauge("homing_worker_queue_depth", "Tasks that wait for a worker",

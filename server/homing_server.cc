@@ -120,9 +120,9 @@ absl::Status HomingServer::State::Listen(const ServerOptions& options) {
   server = builder.BuildAndStart();
   const bool is_socket_file = options.listen.rfind("unix:", 0) == 0;
   if (server == nullptr || (port <= 0 && !is_socket_file)) {
-    return absl::UnavailableError(
-        absl::StrCat("listen is \"", options.listen,
-                     "\"; the address is in use, is not this machine's, or the TLS files are bad"));
+    return absl::UnavailableError(absl::StrCat(
+        "listen: \"", options.listen,
+        "\" is in use or is not an address of this machine, or the TLS files are bad"));
   }
   address = is_socket_file
                 ? options.listen

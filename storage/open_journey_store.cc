@@ -4,6 +4,7 @@
 #include "absl/strings/str_cat.h"
 #include "homing/base/status_macros.h"
 #include "storage/connection.h"
+#include "storage/database_url.h"
 #include "storage/journey_store.h"
 #include "storage/query_connections.h"
 #include "storage/schema.h"
@@ -12,19 +13,9 @@
 namespace homing::storage {
 namespace {
 
-constexpr char kScheme[] = "sqlite:";
 constexpr char kInMemory[] = ":memory:";
 // Readers beside the writer.
 constexpr int kMaxQueryConnections = 4;
-
-absl::StatusOr<std::string> PathOf(const std::string& url) {
-  const std::string scheme = kScheme;
-  if (url.size() <= scheme.size() || url.compare(0, scheme.size(), scheme) != 0) {
-    return absl::InvalidArgumentError(
-        absl::StrCat("database is '", url, "': must be sqlite:PATH or sqlite::memory:"));
-  }
-  return url.substr(scheme.size());
-}
 
 // Every commit is on disk when it returns; the log of the last commits does not grow for ever.
 absl::Status MakeDurable(Connection& connection, const std::string& path) {
@@ -78,7 +69,7 @@ absl::StatusOr<std::unique_ptr<JourneyStore>> OpenReadOnly(const std::string& pa
 }  // namespace
 
 absl::StatusOr<std::unique_ptr<JourneyStore>> OpenJourneyStore(const StoreOptions& options) {
-  HOMING_ASSIGN_OR_RETURN(const std::string path, PathOf(options.url));
+  HOMING_ASSIGN_OR_RETURN(const std::string path, ParseDatabaseUrl(options.url));
   if (options.read_only && path != kInMemory) return OpenReadOnly(path, options);
   HOMING_ASSIGN_OR_RETURN(
       std::unique_ptr<Connection> writer,

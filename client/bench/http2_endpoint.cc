@@ -12,6 +12,7 @@
 #include <cstring>
 
 #include "absl/strings/str_cat.h"
+#include "homing/base/field_error.h"
 #include "homing/base/status_macros.h"
 
 namespace homing::client {
@@ -29,8 +30,7 @@ absl::StatusOr<Http2Endpoint> Http2Endpoint::Make(const ConnectionOptions& optio
   Http2Endpoint endpoint;
   const std::size_t colon = options.address.rfind(':');
   if (colon == std::string::npos || colon == 0 || colon + 1 == options.address.size()) {
-    return absl::InvalidArgumentError(
-        absl::StrCat("--server is \"", options.address, "\"; a load takes host:port"));
+    return TextMustBe("--server", options.address, "host:port");
   }
   endpoint.authority_ = options.address;
   endpoint.host_ = options.address.substr(0, colon);

@@ -10,6 +10,7 @@
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_split.h"
 #include "client/frame_source.h"
+#include "homing/base/field_error.h"
 #include "homing/base/status_macros.h"
 #include "proto/wire/settings_conversion.h"
 
@@ -21,10 +22,7 @@ constexpr char kCameraForm[] = "fx,fy,cx,cy[,k1,k2,p1,p2,k3][,yaw=RAD]";
 // CLI11 wants a text, empty if all is well.
 std::string Explain(const absl::Status& status) { return std::string(status.message()); }
 
-absl::Status BadCamera(const std::string& text) {
-  return absl::InvalidArgumentError(
-      absl::StrCat("camera is \"", text, "\"; it must be ", kCameraForm));
-}
+absl::Status BadCamera(const std::string& text) { return TextMustBe("camera", text, kCameraForm); }
 
 v1::Camera CameraOrNone(const std::string& text) {
   const auto camera = ParseCamera(text);

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "absl/strings/str_cat.h"
+#include "homing/base/field_error.h"
 #include "homing/image/jpeg_decoder.h"
 #include "homing/image/png_decoder.h"
 #include "homing/image/raw_decoder.h"
@@ -22,9 +23,8 @@ absl::StatusOr<cv::Mat> Decode(const Frame& frame, const DecodeLimits& limits) {
     case FrameEncoding::kPng:
       return DecodePng(frame, limits);
   }
-  return absl::InvalidArgumentError(absl::StrCat("frame.encoding ",
-                                                 static_cast<int>(frame.encoding),
-                                                 " is not one of GRAY8, RGB8, BGR8, JPEG, PNG"));
+  return MustBe("frame.encoding", static_cast<int>(frame.encoding),
+                "GRAY8, RGB8, BGR8, JPEG or PNG");
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "absl/strings/str_cat.h"
+#include "homing/base/field_error.h"
 #include "homing/base/status_macros.h"
 #include "homing/image/dimensions.h"
 
@@ -18,8 +19,8 @@ struct HandleCloser {
 using Handle = std::unique_ptr<void, HandleCloser>;
 
 absl::Status JpegError(const Handle& handle) {
-  return absl::InvalidArgumentError(
-      absl::StrCat("frame.data is no complete JPEG image: ", tjGetErrorStr2(handle.get())));
+  return FieldError("frame.data",
+                    absl::StrCat("is no complete JPEG image: ", tjGetErrorStr2(handle.get())));
 }
 
 }  // namespace
@@ -40,7 +41,7 @@ absl::StatusOr<cv::Mat> DecodeJpeg(const Frame& frame, const DecodeLimits& limit
     return JpegError(handle);
   }
   if (width == 0) {
-    return absl::InvalidArgumentError("frame.data is no complete JPEG image: it has no size");
+    return FieldError("frame.data", "is no complete JPEG image: it has no size");
   }
   HOMING_RETURN_IF_ERROR(CheckLimits({width, height}, limits));
   HOMING_RETURN_IF_ERROR(CheckDeclared(frame, {width, height}));

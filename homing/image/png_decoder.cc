@@ -7,6 +7,7 @@
 #include <string>
 
 #include "absl/strings/str_cat.h"
+#include "homing/base/field_error.h"
 #include "homing/base/status_macros.h"
 #include "homing/image/dimensions.h"
 
@@ -22,8 +23,7 @@ struct ContextCloser {
 using Context = std::unique_ptr<spng_ctx, ContextCloser>;
 
 absl::Status PngError(int code) {
-  return absl::InvalidArgumentError(
-      absl::StrCat("frame.data is no complete PNG image: ", spng_strerror(code)));
+  return FieldError("frame.data", absl::StrCat("is no complete PNG image: ", spng_strerror(code)));
 }
 
 // Pixels of `format`, 8 bits a channel, in `type`; then everything up to the end of the file.

@@ -2,12 +2,13 @@
 
 #include "absl/status/status.h"
 #include "absl/strings/str_cat.h"
+#include "homing/base/field_error.h"
 
 namespace homing::wire {
 namespace {
 
 absl::Status UnknownValue(const std::string& field, int value, const char* allowed) {
-  return absl::InvalidArgumentError(absl::StrCat(field, " is ", value, ": must be ", allowed));
+  return MustBe(field, value, allowed);
 }
 
 }  // namespace

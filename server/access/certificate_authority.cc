@@ -10,6 +10,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
+#include "homing/base/field_error.h"
 #include "homing/base/status_macros.h"
 
 namespace homing::server {
@@ -168,7 +169,7 @@ absl::StatusOr<KeyAndCertificate> CertificateAuthority::Issue(
   const std::string names = absl::StrJoin(request.names, ",");
   if (!names.empty() && !AddExtension(made, issuer, NID_subject_alt_name, names)) {
     ERR_clear_error();
-    return absl::InvalidArgumentError(absl::StrCat("names are \"", names, "\"; not X.509 names"));
+    return TextMustBe("names", names, "X.509 names");
   }
   if (!Sign(made, issuer, key_.get())) {
     return Failed("a certificate");

@@ -2,11 +2,11 @@
 
 #include <chrono>
 #include <filesystem>
-#include <fstream>
 #include <optional>
-#include <sstream>
 
 #include "absl/strings/str_cat.h"
+#include "homing/base/field_error.h"
+#include "homing/base/file_text.h"
 #include "homing/base/range_check.h"
 #include "homing/base/status_macros.h"
 #include "server/access/certificate_authority.h"
@@ -18,12 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string ReadOrNothing(const fs::path& path) {
-  const std::ifstream file(path, std::ios::binary);
-  std::ostringstream text;
-  text << file.rdbuf();
-  return file ? text.str() : std::string();
-}
+std::string ReadOrNothing(const fs::path& path) { return ReadFile(path.string()).value_or(""); }
 
 // A folder in the making.
 class Folder {
@@ -70,8 +65,7 @@ class Folder {
       HOMING_RETURN_IF_ERROR(CheckIdentity(identity, "revoke"));
       certificates.push_back(ReadOrNothing(root_ / (identity + ".pem")));
       if (certificates.back().empty()) {
-        return absl::InvalidArgumentError(
-            absl::StrCat("revoke is \"", identity, "\"; the folder holds no certificate of it"));
+        return TextMustBe("revoke", identity, "an identity whose certificate is in the folder");
       }
     }
     const fs::path path = root_ / "crl" / "homing.pem";

@@ -25,7 +25,7 @@ absl::StatusOr<OpensslPtr<STACK_OF(X509_INFO)>> ReadPem(const std::string& flag,
       PEM_X509_INFO_read_bio(ReadingBio(pem).get(), nullptr, nullptr, nullptr));
   ERR_clear_error();
   if (!items) {
-    return FlagFileError(flag, path, "the file is not PEM");
+    return FlagFileError(flag, path, "is not PEM");
   }
   return items;
 }
@@ -39,7 +39,7 @@ absl::Status AddAuthorities(const std::string& path, X509_STORE* store) {
     }
   }
   return found > 0 ? absl::OkStatus()
-                   : FlagFileError("tls-client-ca", path, "it holds no certificate");
+                   : FlagFileError("tls-client-ca", path, "holds no certificate");
 }
 
 absl::StatusOr<int> AddRevocations(const std::string& path, X509_STORE* store) {
@@ -64,7 +64,7 @@ absl::Status AddRevocationFolder(const std::string& folder, X509_STORE* store) {
   }
   if (error || found == 0) {
     return FlagFileError("tls-crl-dir", folder,
-                         "it is no folder that holds a revocation list (PEM)");
+                         "must be a folder that holds a revocation list (PEM)");
   }
   X509_STORE_set_flags(store, X509_V_FLAG_CRL_CHECK | X509_V_FLAG_CRL_CHECK_ALL);
   return absl::OkStatus();

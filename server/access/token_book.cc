@@ -11,6 +11,7 @@
 #include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
 #include "homing/base/status_macros.h"
+#include "server/access/flag_file.h"
 #include "server/access/identity.h"
 #include "server/access/private_file.h"
 #include "server/access/text_table.h"
@@ -64,11 +65,13 @@ absl::StatusOr<TokenBook> TokenBook::Read(const std::string& path) {
     const auto hash = HashOfText(key);
     if (!hash) {
       // Not repeated: it may be a token put there by mistake.
-      return absl::InvalidArgumentError(absl::StrCat(
-          "tokens is \"", path, "\"; the key of ", identity.substr(0, 100),
-          " must be sha256: and 64 hexadecimal digits, as `homing-server token` makes it"));
+      return FlagFileError(
+          "tokens", path,
+          absl::StrCat("gives ", identity.substr(0, 100),
+                       " a key that is not sha256: and 64 hexadecimal digits, as `homing-server "
+                       "token` makes it"));
     }
-    HOMING_RETURN_IF_ERROR(CheckIdentity(identity, "tokens: identity"));
+    HOMING_RETURN_IF_ERROR(CheckIdentity(identity, "tokens"));
     book.entries_.push_back({*hash, identity});
   }
   return book;

@@ -175,7 +175,7 @@ absl::Status FleetIndex::CheckReady() const {
   const std::lock_guard lock(queue_mutex_);
   return WithReason(
       absl::UnavailableError(absl::StrCat(
-          "journey is \"robots/-/journeys/-\"; the index of all journeys ",
+          "journey: \"robots/-/journeys/-\" needs the index of all journeys, which ",
           build_status_.ok() ? "is still being built"
                              : "could not be built: " + std::string(build_status_.message()))),
       {"INDEX_NOT_READY", {}});

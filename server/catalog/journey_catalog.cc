@@ -34,7 +34,7 @@ JourneySettings WithSizesOf(JourneySettings settings, const JourneySettings& kno
 
 absl::Status NoneCovered(const JourneyName& pattern) {
   return absl::NotFoundError(
-      absl::StrCat("journey is \"", pattern.ToString(), "\"; no journey is covered by it"));
+      absl::StrCat("journey: \"", pattern.ToString(), "\" covers no journey"));
 }
 
 bool IsSameJourney(const JourneyRecord& wanted, const JourneyRecord& present) {
@@ -125,8 +125,8 @@ absl::StatusOr<JourneyRecord> JourneyCatalog::GetSameOrExists(const JourneyRecor
     return present;
   }
   return absl::AlreadyExistsError(
-      absl::StrCat("journey is \"", record.name,
-                   "\"; it exists, and is finished or of another writer_id or other settings"));
+      absl::StrCat("journey: \"", record.name,
+                   "\" exists, and is finished or has another writer_id or other settings"));
 }
 
 absl::StatusOr<JourneyRecord> JourneyCatalog::Create(const JourneyRecord& record) {
@@ -178,7 +178,7 @@ absl::Status JourneyCatalog::Delete(const std::string& name) {
   const auto journey = Find(name);
   if (journey) {
     journey->EvictWriter(
-        WithReason(absl::AbortedError(absl::StrCat("journey is \"", name, "\"; it was deleted")),
+        WithReason(absl::AbortedError(absl::StrCat("journey: \"", name, "\" was deleted")),
                    {"JOURNEY_DELETED", {}}));
   }
   HOMING_RETURN_IF_ERROR(store_->DeleteJourney(name));
@@ -201,7 +201,7 @@ absl::StatusOr<JourneyRecord> JourneyCatalog::Finish(const std::string& name,
     HOMING_RETURN_IF_ERROR(journey->CheckWriter(writer_id, now));
     journey->EvictWriter(
         WithReason(absl::FailedPreconditionError(absl::StrCat(
-                       "journey is \"", name, "\"; it is finished and takes no observations")),
+                       "journey: \"", name, "\" is finished and takes no observations")),
                    {"JOURNEY_FINISHED", {}}));
   }
   HOMING_RETURN_IF_ERROR(store_->FinishJourney(name));
@@ -274,7 +274,7 @@ absl::Status JourneyCatalog::LoadMap(const JourneyName& pattern, LiveJourney* jo
   if (pattern.is_pattern() && bytes > options_.cache_bytes) {
     return WithReason(
         absl::ResourceExhaustedError(absl::StrCat(
-            "journey is \"", pattern.ToString(), "\"; the maps in use need more than map-cache, ",
+            "journey: \"", pattern.ToString(), "\" needs more memory for maps than map-cache, ",
             options_.cache_bytes, " bytes; name fewer journeys, or raise map-cache")),
         {"MAP_CACHE", {}});
   }

@@ -89,7 +89,7 @@ void Count(const SettingsUse& use, std::size_t index, const LocalizerOptions& op
 
 absl::Status NoneLeft(const JourneyName& pattern, std::int64_t covered, const absl::Status& last) {
   return WithReason(absl::FailedPreconditionError(absl::StrCat(
-                        "journey is \"", pattern.ToString(), "\"; it covers ", covered,
+                        "journey: \"", pattern.ToString(), "\" covers ", covered,
                         " journeys, and none has the camera and settings of the query: ",
                         std::string(last.message()))),
                     {"OTHER_SETTINGS", {}});
@@ -145,8 +145,7 @@ absl::StatusOr<SettingsSelection> SelectSettings(const std::vector<SettingsUse>&
     }
   }
   if (journeys == 0) {
-    return absl::NotFoundError(
-        absl::StrCat("journey is \"", all.ToString(), "\"; no journey is covered by it"));
+    return absl::NotFoundError(absl::StrCat("journey: \"", all.ToString(), "\" covers no journey"));
   }
   if (groups.empty()) {
     return NoneLeft(all, journeys, last);

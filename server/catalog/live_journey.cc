@@ -13,8 +13,8 @@ namespace {
 
 absl::Status ClaimOver(const std::string& name) {
   return WithReason(
-      absl::AbortedError(absl::StrCat("journey is \"", name,
-                                      "\"; another stream took it over, one stream may write it")),
+      absl::AbortedError(absl::StrCat(
+          "journey: \"", name, "\" was taken over by another stream; one stream may write it")),
       {"WRITER_REPLACED", {}});
 }
 
@@ -58,7 +58,7 @@ bool LiveJourney::IsIdle(TimePoint now) const {
 }
 
 absl::Status LiveJourney::CheckPresent() const {
-  return deleted_ ? absl::NotFoundError(absl::StrCat("journey is \"", name_, "\"; it was deleted"))
+  return deleted_ ? absl::NotFoundError(absl::StrCat("journey: \"", name_, "\" was deleted"))
                   : absl::OkStatus();
 }
 
@@ -66,7 +66,7 @@ absl::Status LiveJourney::CheckWritable() const {
   HOMING_RETURN_IF_ERROR(CheckPresent());
   if (record_.state == storage::JourneyState::kFinished) {
     return WithReason(absl::FailedPreconditionError(absl::StrCat(
-                          "journey is \"", name_, "\"; it is finished and takes no observations")),
+                          "journey: \"", name_, "\" is finished and takes no observations")),
                       {"JOURNEY_FINISHED", {}});
   }
   return absl::OkStatus();

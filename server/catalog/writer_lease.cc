@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "absl/strings/str_cat.h"
+#include "homing/base/field_error.h"
 #include "server/base/error_reason.h"
 
 namespace homing::server {
@@ -17,8 +18,7 @@ absl::Status CheckWriterId(const std::string& writer_id, const std::string& fiel
   const bool printable =
       std::all_of(writer_id.begin(), writer_id.end(), [](char c) { return c >= ' ' && c <= '~'; });
   if (writer_id.size() > kMaxWriterIdLength || !printable) {
-    return absl::InvalidArgumentError(absl::StrCat(
-        field, " is ", writer_id.size(), " bytes; it must be up to 128 printable ASCII ones"));
+    return TextMustBe(field, writer_id, "at most 128 printable ASCII characters");
   }
   return absl::OkStatus();
 }
@@ -29,11 +29,11 @@ absl::Status WriterLease::CheckFree(const std::string& writer_id, TimePoint now)
   }
   const auto left =
       std::chrono::duration_cast<std::chrono::milliseconds>(kDuration - (now - renewed_)).count();
-  return WithReason(
-      absl::AbortedError(absl::StrCat("writer_id is \"", writer_id,
-                                      "\"; another writer holds the journey, its lease of ",
-                                      kDuration.count(), " s lives for ", left, " ms more")),
-      {"WRITER_LEASE_HELD", {{"lease_left_ms", absl::StrCat(left)}}});
+  return WithReason(absl::AbortedError(absl::StrCat(
+                        "writer_id: \"", writer_id,
+                        "\" is not the writer; another one holds the journey, and its lease of ",
+                        kDuration.count(), " s lasts ", left, " ms more")),
+                    {"WRITER_LEASE_HELD", {{"lease_left_ms", absl::StrCat(left)}}});
 }
 
 std::uint64_t WriterLease::Take(const std::string& writer_id, TimePoint now, Evict evict,

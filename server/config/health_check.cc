@@ -3,29 +3,20 @@
 #include <grpcpp/grpcpp.h>
 
 #include <chrono>
-#include <fstream>
 #include <memory>
-#include <sstream>
 
 #include "absl/status/statusor.h"
-#include "absl/strings/str_cat.h"
 #include "grpc/health/v1/health.grpc.pb.h"
 #include "homing/base/status_macros.h"
+#include "server/access/flag_file.h"
 
 namespace homing::server {
 namespace {
 
 constexpr std::chrono::seconds kTimeout{3};
 
-absl::StatusOr<std::string> ReadPem(const char* flag, const std::string& path) {
-  const std::ifstream file(path, std::ios::binary);
-  std::ostringstream text;
-  text << file.rdbuf();
-  if (!path.empty() && !file) {
-    return absl::InvalidArgumentError(
-        absl::StrCat(flag, " is \"", path, "\"; the file cannot be read"));
-  }
-  return text.str();
+absl::StatusOr<std::string> ReadPem(const std::string& flag, const std::string& path) {
+  return path.empty() ? absl::StatusOr<std::string>("") : ReadFlagFile(flag, path);
 }
 
 }  // namespace

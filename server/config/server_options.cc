@@ -2,6 +2,7 @@
 
 #include "absl/strings/escaping.h"
 #include "absl/strings/str_cat.h"
+#include "homing/base/field_error.h"
 #include "homing/base/range_check.h"
 #include "homing/base/status_macros.h"
 #include "homing/flow/observation.h"
@@ -41,25 +42,23 @@ absl::Status Validate(const ServerOptions& options) {
       CheckRange<std::int64_t>("map-cache", options.map_cache, 0, std::int64_t{1} << 50));
   HOMING_RETURN_IF_ERROR(CheckRange("drain-ms", options.drain_ms, 0, 600'000));
   if (options.tls_cert.empty() != options.tls_key.empty()) {
-    return absl::InvalidArgumentError("tls-cert and tls-key must be given together");
+    return FieldError("tls-cert", "must be given together with tls-key");
   }
   if (!options.tls_client_ca.empty() && options.tls_cert.empty()) {
-    return absl::InvalidArgumentError("tls-client-ca needs tls-cert and tls-key");
+    return FieldError("tls-client-ca", "needs tls-cert and tls-key");
   }
   if (!options.tls_crl_dir.empty() && options.tls_client_ca.empty()) {
-    return absl::InvalidArgumentError("tls-crl-dir needs tls-client-ca");
+    return FieldError("tls-crl-dir", "needs tls-client-ca");
   }
   HOMING_RETURN_IF_ERROR(CheckRange("reload-s", options.reload_s, 1, 3600));
   HOMING_RETURN_IF_ERROR(Validate(options.limits));
   if (HasHttp(options) && !options.insecure && !IsLoopback(options.http)) {
-    return absl::InvalidArgumentError(
-        absl::StrCat("http is \"", options.http,
-                     "\"; it has no TLS, so that off loopback insecure is required"));
+    return TextMustBe("http", options.http,
+                      "a loopback address, because it has no TLS; or set insecure");
   }
   if (options.tls_cert.empty() && !options.insecure && !IsLoopback(options.listen)) {
-    return absl::InvalidArgumentError(
-        absl::StrCat("listen is \"", options.listen,
-                     "\"; off loopback TLS is required (tls-cert, tls-key), or insecure"));
+    return TextMustBe("listen", options.listen,
+                      "a loopback address without TLS; set tls-cert and tls-key, or insecure");
   }
   return absl::OkStatus();
 }

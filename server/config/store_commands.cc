@@ -6,16 +6,14 @@
 #include <vector>
 
 #include "storage/backup.h"
+#include "storage/database_url.h"
 #include "storage/doctor.h"
 
 namespace homing::server {
 namespace {
 
-constexpr char kScheme[] = "sqlite:";
-
-std::string PathOf(const std::string& url) {
-  return url.rfind(kScheme, 0) == 0 ? url.substr(sizeof(kScheme) - 1) : url;
-}
+// The commands take a path, too.
+std::string PathOf(const std::string& url) { return storage::ParseDatabaseUrl(url).value_or(url); }
 
 int TellFailure(const absl::Status& status) {
   std::cerr << "homing-server: " << std::string(status.message()) << '\n';

@@ -42,9 +42,9 @@ absl::StatusOr<std::unique_ptr<MetricsEndpoint>> MetricsEndpoint::Start(const st
     return std::unique_ptr<MetricsEndpoint>(
         new MetricsEndpoint(std::make_unique<State>(address, metrics.state())));
   } catch (const std::exception&) {
-    return absl::UnavailableError(absl::StrCat("http is \"", address,
-                                               "\"; the address is in use or is not this "
-                                               "machine's"));
+    return absl::UnavailableError(absl::StrCat("http: \"", address,
+                                               "\" is in use or is not an address of this "
+                                               "machine"));
   }
 }
 

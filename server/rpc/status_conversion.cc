@@ -10,6 +10,7 @@
 #include "absl/strings/numbers.h"
 #include "absl/strings/str_cat.h"
 #include "google/rpc/error_details.pb.h"
+#include "homing/base/field_error.h"
 #include "server/base/error_reason.h"
 
 namespace homing::server {
@@ -58,24 +59,11 @@ void AddRetryInfo(const absl::Status& status, google::rpc::Status* details) {
   details->add_details()->PackFrom(retry);
 }
 
-// "left: frame.width is 0, must be ..." is about left.frame.width.
-std::string FieldOf(const std::string& message) {
-  std::string field;
-  std::size_t begin = 0;
-  std::size_t end = message.find(' ');
-  while (end != std::string::npos && end > begin && message[end - 1] == ':') {
-    field += message.substr(begin, end - 1 - begin) + ".";
-    begin = end + 1;
-    end = message.find(' ', begin);
-  }
-  return field + message.substr(begin, end == std::string::npos ? end : end - begin);
-}
-
-void AddBadRequest(const std::string& message, google::rpc::Status* details) {
+void AddBadRequest(const absl::Status& status, google::rpc::Status* details) {
   google::rpc::BadRequest bad;
   auto* violation = bad.add_field_violations();
-  violation->set_field(FieldOf(message));
-  violation->set_description(message);
+  violation->set_field(FieldOf(status).value_or(""));
+  violation->set_description(details->message());
   details->add_details()->PackFrom(bad);
 }
 
@@ -93,7 +81,7 @@ grpc::Status ToGrpcStatus(const absl::Status& status) {
     AddRetryInfo(status, &details);
   }
   if (absl::IsInvalidArgument(status)) {
-    AddBadRequest(details.message(), &details);
+    AddBadRequest(status, &details);
   }
   return {static_cast<grpc::StatusCode>(status.code()), details.message(),
           details.SerializeAsString()};

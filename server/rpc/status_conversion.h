@@ -11,7 +11,7 @@
 namespace homing::server {
 
 // With google.rpc details: ErrorInfo always (domain "homing"), RetryInfo for RESOURCE_EXHAUSTED and
-// UNAVAILABLE, BadRequest for INVALID_ARGUMENT (its field is what the message begins with). What
+// UNAVAILABLE, BadRequest for INVALID_ARGUMENT (with the field of homing::FieldError). What
 // INTERNAL and UNKNOWN say stays in the server's log. Messages are cut at 1000 bytes.
 grpc::Status ToGrpcStatus(const absl::Status& status);
 

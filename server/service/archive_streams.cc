@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "absl/strings/str_cat.h"
+#include "homing/base/field_error.h"
 #include "homing/base/status_macros.h"
 #include "server/base/error_reason.h"
 #include "server/rpc/status_conversion.h"
@@ -45,7 +46,7 @@ void ImportStream::Open() {
 absl::Status ImportStream::Take(const v1::ImportJourneyRequest& request) {
   if (request.request_case() == v1::ImportJourneyRequest::kName) {
     if (!name_.empty()) {
-      return absl::InvalidArgumentError("name came twice; only the first message is name");
+      return FieldError("name", "must come once, in the first message");
     }
     name_ = request.name();
     HOMING_RETURN_IF_ERROR(ParseJourneyName(name_, "name").status());
@@ -53,7 +54,7 @@ absl::Status ImportStream::Take(const v1::ImportJourneyRequest& request) {
     return call_.Authorize(name_);
   }
   if (name_.empty()) {
-    return absl::InvalidArgumentError("chunk came first; the first message must be name");
+    return FieldError("chunk", "came before name; the first message must be name");
   }
   return TakeChunk(request.chunk());
 }
@@ -62,9 +63,8 @@ absl::Status ImportStream::TakeChunk(const std::string& chunk) {
   const auto bytes = static_cast<std::int64_t>(chunk.size());
   const auto size = static_cast<std::int64_t>(file_.size()) + bytes;
   if (size > static_cast<std::int64_t>(kMaxArchiveBytes)) {
-    return absl::InvalidArgumentError(absl::StrCat("chunk makes the file ", size,
-                                                   " bytes; at most ",
-                                                   static_cast<std::int64_t>(kMaxArchiveBytes)));
+    return MustBe("chunk", absl::StrCat("a file of ", size),
+                  absl::StrCat("at most ", kMaxArchiveBytes, " bytes"));
   }
   taken_ += bytes;
   const std::int64_t most = core_->options.limits.memory_quota;
@@ -96,7 +96,7 @@ void ImportStream::OnReadDone(bool ok) {
 
 absl::Status ImportStream::Store() {
   if (name_.empty()) {
-    return absl::InvalidArgumentError("name is missing; the first message must be name");
+    return FieldError("name", "is missing; the first message must be name");
   }
   HOMING_RETURN_IF_ERROR(core_->quota.CheckNew(name_));
   HOMING_ASSIGN_OR_RETURN(ArchivedJourney archive, DecodeJourney(file_));

@@ -10,6 +10,7 @@
 
 #include "absl/status/status.h"
 #include "absl/strings/str_cat.h"
+#include "homing/base/field_error.h"
 #include "homing/base/status_macros.h"
 #include "homing/landmark/profile_code.h"
 #include "homing/v1/journey_map.pb.h"
@@ -24,7 +25,7 @@ constexpr std::string_view kMagic = "HOMINGJ\x01";
 constexpr std::size_t kChecksumBytes = 4;
 
 absl::Status Damaged(const std::string& what) {
-  return absl::InvalidArgumentError(absl::StrCat("journey file: ", what));
+  return FieldError("chunk", absl::StrCat("journey file: ", what));
 }
 
 // CRC-32 as in zlib, least significant byte first.

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "absl/strings/str_cat.h"
+#include "homing/base/field_error.h"
 #include "homing/base/status_macros.h"
 #include "homing/localization/aliasing.h"
 #include "homing/localization/position_filter.h"
@@ -22,8 +23,8 @@ constexpr int kMaxReaders = 1000;
 
 absl::StatusOr<std::vector<std::string>> DecodeReaders(const v1::Journey& journey) {
   if (journey.readers_size() > kMaxReaders) {
-    return absl::InvalidArgumentError(absl::StrCat("journey.readers has ", journey.readers_size(),
-                                                   " entries; at most ", kMaxReaders));
+    return MustBe("journey.readers", journey.readers_size(),
+                  absl::StrCat("at most ", kMaxReaders, " entries"));
   }
   for (const std::string& reader : journey.readers()) {
     HOMING_RETURN_IF_ERROR(reader == "*"

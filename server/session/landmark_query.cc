@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "absl/strings/str_cat.h"
+#include "homing/base/field_error.h"
 #include "homing/base/range_check.h"
 #include "homing/base/status_macros.h"
 #include "homing/flow/motion.h"
@@ -20,14 +21,14 @@ std::string NameOf(std::size_t camera) { return camera == 0 ? "left" : "right"; 
 
 absl::Status CheckFingerprints(const SeenFingerprints& seen) {
   if (seen.landmarks.size() > kMaxFingerprints) {
-    return absl::InvalidArgumentError(
-        absl::StrCat("fingerprints has ", seen.landmarks.size(), " entries; at most 100"));
+    return MustBe("fingerprints", seen.landmarks.size(),
+                  absl::StrCat("at most ", kMaxFingerprints, " entries"));
   }
   for (const SeenLandmark& landmark : seen.landmarks) {
     if (!std::isfinite(landmark.x) || !std::isfinite(landmark.y) || landmark.count < 0) {
-      return absl::InvalidArgumentError(
-          absl::StrCat("fingerprints has x ", landmark.x, ", y ", landmark.y, ", count ",
-                       landmark.count, "; they must be finite, the count not negative"));
+      return MustBe("fingerprints",
+                    absl::StrCat("x ", landmark.x, ", y ", landmark.y, ", count ", landmark.count),
+                    "finite, with a count of at least 0");
     }
   }
   return absl::OkStatus();
@@ -40,7 +41,7 @@ absl::StatusOr<QueryRobot> MeasureRobot(const LandmarkQuery& query, const Decode
   for (std::size_t side = 0; side < query.views.size(); ++side) {
     if (const auto* pair = std::get_if<FramePair>(&query.views[side])) {
       const auto image = DecodeGray(pair->first, limits);
-      HOMING_RETURN_IF_ERROR(Within(absl::StrCat(NameOf(side), ": first"), image.status()));
+      HOMING_RETURN_IF_ERROR(Within(absl::StrCat(NameOf(side), ".first"), image.status()));
       robot.widths[side] = image->cols;
       robot.heights[side] = image->rows;
     } else if (const auto* flow = std::get_if<FlowField>(&query.views[side])) {
@@ -130,7 +131,7 @@ absl::StatusOr<LandmarkQueryResult> MatchLandmarks(JourneyCatalog* catalog,
   HOMING_ASSIGN_OR_RETURN(const JourneyName pattern, ParseJourneyPattern(query.journey, "journey"));
   HOMING_RETURN_IF_ERROR(Validate(query.match));
   if (query.views[0].index() == 0 && query.views[1].index() == 0) {
-    return absl::InvalidArgumentError("left and right are both empty; a camera is required");
+    return FieldError("left", "must be set unless right is");
   }
   HOMING_ASSIGN_OR_RETURN(const QueryRobot robot, MeasureRobot(query, limits));
   // The index knows no callers: it answers those who may read all.

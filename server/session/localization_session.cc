@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "absl/strings/str_cat.h"
+#include "homing/base/field_error.h"
 #include "homing/base/range_check.h"
 #include "homing/base/status_macros.h"
 #include "server/base/error_reason.h"
@@ -64,8 +65,7 @@ absl::StatusOr<std::unique_ptr<LocalizationSession>> LocalizationSession::Open(
 
 absl::Status LocalizationSession::CheckSequence(std::int64_t sequence) {
   if (sequence < 0) {
-    return absl::InvalidArgumentError(
-        absl::StrCat("observation.sequence is ", sequence, "; numbers begin at 0"));
+    return MustBe("observation.sequence", sequence, "at least 0");
   }
   if (due_ && sequence != *due_) {
     return WithReason(absl::OutOfRangeError(absl::StrCat("observation.sequence is ", sequence, "; ",
@@ -98,8 +98,7 @@ absl::StatusOr<Localization> LocalizationSession::Localize(const Observation& ob
     HOMING_RETURN_IF_ERROR(Start(observation));
   }
   if (!pattern_.is_pattern() && journeys_.front()->deleted()) {
-    return absl::NotFoundError(
-        absl::StrCat("journey is \"", pattern_.ToString(), "\"; it was deleted"));
+    return absl::NotFoundError(absl::StrCat("journey: \"", pattern_.ToString(), "\" was deleted"));
   }
   const MapsLock lock(journeys_);
   HOMING_ASSIGN_OR_RETURN(Localization result,

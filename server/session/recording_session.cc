@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "absl/strings/str_cat.h"
+#include "homing/base/field_error.h"
 #include "homing/base/range_check.h"
 #include "homing/base/status_macros.h"
 #include "server/base/error_reason.h"
@@ -36,7 +37,7 @@ absl::StatusOr<std::shared_ptr<RecordingSession>> RecordingSession::Open(
   HOMING_ASSIGN_OR_RETURN(const JourneyName name, ParseJourneyName(journey, "config.journey"));
   HOMING_RETURN_IF_ERROR(CheckWriterId(writer_id, "config.writer_id"));
   if (writer_id.empty()) {
-    return absl::InvalidArgumentError("config.writer_id is empty; it must name the writer");
+    return FieldError("config.writer_id", "must name the writer");
   }
   std::shared_ptr<RecordingSession> session(new RecordingSession(context, std::move(listener)));
   HOMING_ASSIGN_OR_RETURN(WriterClaim claim,
@@ -110,8 +111,7 @@ absl::Status RecordingSession::Process(const Observation& observation, TimePoint
 
 absl::Status RecordingSession::CheckDue(const Observation& observation) const {
   if (observation.sequence < 0) {
-    return absl::InvalidArgumentError(
-        absl::StrCat("observation.sequence is ", observation.sequence, "; numbers begin at 0"));
+    return MustBe("observation.sequence", observation.sequence, "at least 0");
   }
   const bool goes_on_after_break = observation.break_before && observation.sequence == next_;
   if (observation.sequence > due_ && !goes_on_after_break) {

@@ -85,7 +85,7 @@ TEST_F(ServerProcessTest, OffLoopbackWithoutTlsItDoesNotStart) {
   EXPECT_EQ(Run({HOMING_SERVER_PROGRAM, "--listen", "0.0.0.0:0", "--database", folder_.Database()},
                 &errors),
             1);
-  EXPECT_THAT(errors, HasSubstr("TLS is required"));
+  EXPECT_THAT(errors, HasSubstr("loopback address without TLS"));
 }
 
 TEST_F(ServerProcessTest, CheckConfigTellsWhatWouldBeUsedAndTouchesNothing) {

@@ -160,9 +160,9 @@ TEST_P(AccessTableTest, AWildcardCoversWhatTheCallerMayRead) {
   EXPECT_THAT(As("robots/other").Localize("robots/-/journeys/-"), IsGrpcOk());
   EXPECT_THAT(As("robots/other").Match("robots/owner/journeys/-"), IsGrpcOk());
   EXPECT_THAT(As("robots/other").Localize("robots/guide/journeys/-"),
-              GrpcStatusIs(grpc::StatusCode::NOT_FOUND, HasSubstr("no journey is covered")));
+              GrpcStatusIs(grpc::StatusCode::NOT_FOUND, HasSubstr("covers no journey")));
   EXPECT_THAT(As("robots/other").Match("robots/-/journeys/private"),
-              GrpcStatusIs(grpc::StatusCode::NOT_FOUND, HasSubstr("no journey is covered")));
+              GrpcStatusIs(grpc::StatusCode::NOT_FOUND, HasSubstr("covers no journey")));
   EXPECT_THAT(As("robots/owner").Match("robots/-/journeys/private"), IsGrpcOk());
 }
 

@@ -34,7 +34,7 @@ TEST_F(LifecycleTest, TheSameWriterTakesOverAndTheOldStreamIsAborted) {
   EXPECT_EQ(first.next_sequence(), 1);
   EXPECT_EQ(first.resend_from(), 1);
   const grpc::Status status = old_stream.AwaitEnd();
-  EXPECT_THAT(status, GrpcStatusIs(grpc::StatusCode::ABORTED, HasSubstr("took it over")));
+  EXPECT_THAT(status, GrpcStatusIs(grpc::StatusCode::ABORTED, HasSubstr("taken over")));
   EXPECT_EQ(ReasonOf(status), "WRITER_REPLACED");
   EXPECT_EQ(stream.Record(test::FlowAt(1)).next_sequence(), 2);
 }

@@ -221,7 +221,7 @@ TEST_F(LimitsTest, AnHttpAddressThatIsTakenIsAnErrorOnlyIfItWasAskedFor) {
   second.http = server_->metrics_address();
   second.database = "sqlite:" + folder_.File("other.db");
   EXPECT_THAT(HomingServer::Start(second),
-              StatusIs(absl::StatusCode::kUnavailable, HasSubstr("http is")));
+              StatusIs(absl::StatusCode::kUnavailable, HasSubstr("http: ")));
   second.http_optional = true;
   const auto started = HomingServer::Start(second);
   ASSERT_THAT(started, IsOk());

@@ -176,12 +176,12 @@ TEST_P(AppendTest, RefusesWhatTheMapWouldRefuse) {
     EXPECT_FALSE(bad.step <= 11 && map.Append(bad).ok()) << why;
     ExpectRefused(bad, why);
   };
-  refused([](JourneyStep& s) { s.step = 10; }, "step is 10: must be 11 to 11");
-  refused([](JourneyStep& s) { s.step = 12; }, "step is 12: must be 11 to 11");
+  refused([](JourneyStep& s) { s.step = 10; }, "step: 10 must be in [11, 11]");
+  refused([](JourneyStep& s) { s.step = 12; }, "step: 12 must be in [11, 11]");
   refused([](JourneyStep& s) { s.fingerprints[3].fingerprint.landmark = 1000; }, "is 1000");
   refused([](JourneyStep& s) { s.fingerprints[1].fingerprint.landmark = -1; }, "is -1");
   refused([](JourneyStep& s) { s.fingerprints[1] = s.fingerprints[0]; }, "once in a step");
-  refused([](JourneyStep& s) { s.fingerprints[0].fingerprint.count = 0; }, "is 0: must be");
+  refused([](JourneyStep& s) { s.fingerprints[0].fingerprint.count = 0; }, "0 must be at least 1");
   refused([](JourneyStep& s) { s.fingerprints[0].fingerprint.x = NAN; }, "finite");
   refused([](JourneyStep& s) { s.fingerprints[0].spread = INFINITY; }, "spread");
   refused([](JourneyStep& s) { std::swap(s.fingerprints[1], s.fingerprints[2]); }, "left");

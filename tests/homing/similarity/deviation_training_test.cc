@@ -97,7 +97,7 @@ TEST(DeviationTrainingTest, NamesTheFieldAndTheLimit) {
   options.observations = 9;
   EXPECT_THAT(TrainDeviationModel(options),
               StatusIs(absl::StatusCode::kInvalidArgument,
-                       HasSubstr("observations is 9, must be in [10, 1000000]")));
+                       HasSubstr("observations: 9 must be in [10, 1000000]")));
   options = {};
   options.focal_px = 0;
   EXPECT_THAT(Validate(options), StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("focal")));

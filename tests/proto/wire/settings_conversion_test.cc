@@ -77,11 +77,11 @@ void ExpectSettingsRefused(Change change, const std::string& why) {
 
 TEST(SettingsConversion, RefusesWrongSettingsByName) {
   ExpectSettingsRefused([](v1::JourneySettings& m) { m.mutable_left_camera()->set_width(-1); },
-                        "settings.left_camera.width is -1: must be 0 to 8192");
+                        "settings.left_camera.width: -1 must be in [0, 8192] px");
   ExpectSettingsRefused([](v1::JourneySettings& m) { m.mutable_right_camera()->set_height(8193); },
-                        "settings.right_camera.height is 8193");
+                        "settings.right_camera.height: 8193");
   ExpectSettingsRefused([](v1::JourneySettings& m) { m.mutable_left_camera()->add_distortion(1); },
-                        "settings.left_camera.distortion has 6 entries");
+                        "settings.left_camera.distortion: 6 must be 0, 4 or 5 entries");
   ExpectSettingsRefused(
       [](v1::JourneySettings& m) { m.mutable_left_camera()->set_distortion(0, NAN); },
       "settings.left_camera: ");

@@ -95,8 +95,8 @@ TEST_F(ServerOptionsTest, OffLoopbackNeedsTlsOrTheFlagThatSaysSo) {
   for (const char* address :
        {"0.0.0.0:0", "[::]:1", "10.0.0.1:1", "example.org:1", "127.example.org:1"}) {
     options.listen = address;
-    EXPECT_THAT(Validate(options),
-                StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("TLS is required")))
+    EXPECT_THAT(Validate(options), StatusIs(absl::StatusCode::kInvalidArgument,
+                                            HasSubstr("loopback address without TLS")))
         << address;
   }
   options.insecure = true;
@@ -122,8 +122,7 @@ TEST_F(ServerOptionsTest, MetricsAreOnLoopbackUnlessSaidOtherwise) {
   EXPECT_FALSE(HasHttp(Parse({"--http", "off"}).options));
   ServerOptions options = Parse({"--http", "0.0.0.0:1"}).options;
   EXPECT_FALSE(options.http_optional);
-  EXPECT_THAT(Validate(options),
-              StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("http is")));
+  EXPECT_THAT(Validate(options), StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("http: ")));
   options.insecure = true;
   EXPECT_THAT(Validate(options), IsOk());
 }

@@ -187,7 +187,7 @@ TEST_F(RecordingSessionTest, TheSameWriterTakesOverAndTheOldStreamIsAborted) {
   old_session->Record(test::FlowAt(0), {});
   Ear ear;
   const auto session = Open(&ear).value();
-  EXPECT_THAT(old_ear.AwaitEnd(), StatusIs(absl::StatusCode::kAborted, HasSubstr("took it over")));
+  EXPECT_THAT(old_ear.AwaitEnd(), StatusIs(absl::StatusCode::kAborted, HasSubstr("taken over")));
   // What the old stream had on its way is counted in.
   EXPECT_EQ(ear.AwaitAnswers(1)[0].next_sequence, 1);
   old_session->Record(test::FlowAt(1, 50), {});
@@ -205,7 +205,7 @@ TEST_F(RecordingSessionTest, AnotherWriterIsRefusedWhileTheLeaseLives) {
   EXPECT_THAT(Open(&other, start + seconds(24), "other"),
               StatusIs(absl::StatusCode::kAborted, HasSubstr("another writer holds")));
   EXPECT_THAT(Open(&other, start + seconds(25), "other"), IsOk());
-  EXPECT_THAT(ear.AwaitEnd(), StatusIs(absl::StatusCode::kAborted, HasSubstr("took it over")));
+  EXPECT_THAT(ear.AwaitEnd(), StatusIs(absl::StatusCode::kAborted, HasSubstr("taken over")));
   EXPECT_EQ(store_->GetJourney(kJourney)->writer_id, "other");
 }
 
