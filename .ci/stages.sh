@@ -73,6 +73,9 @@ stage_tidy() {
   run-clang-tidy -quiet -p build/tidy -j "$jobs" -extra-arg=-Wno-unknown-warning-option '^(?!.*(\.pb\.cc|/homing_proto\.dir/.*)$)'
 }
 
+# Lock annotations, and each source by itself: about five minutes of one processor.
+stage_locks() { .ci/locks.sh; }
+
 # Kills, power cuts, full and failing disks: few of each. Goes on from the build of the tests.
 stage_faults() {
   if [ -d "$scratch/root/homing" ]; then

@@ -6,15 +6,14 @@
 #include <grpcpp/client_context.h>
 #include <grpcpp/support/sync_stream.h>
 
-#include <condition_variable>
 #include <functional>
 #include <memory>
-#include <mutex>
 #include <thread>
 
 #include "absl/status/status.h"
 #include "client/resend_buffer.h"
 #include "client/rpc_status.h"
+#include "homing/base/mutex.h"
 
 namespace homing::client {
 
@@ -36,6 +35,7 @@ class Exchange {
     WriteAll(buffer, fill);
     reader.join();
     absl::Status status = FromGrpc(stream_->Finish());
+    const MutexLock lock(mutex_);
     if (!error_.ok()) return error_;
     if (!status.ok()) return status;
     if (!ended_ || open_ > 0) return absl::UnavailableError("the server ended the stream early");
@@ -47,13 +47,13 @@ class Exchange {
     Response response;
     while (stream_->Read(&response)) {
       if (const absl::Status status = on_answer(response); !status.ok()) Fail(status);
-      const std::lock_guard lock(mutex_);
+      const MutexLock lock(mutex_);
       --open_;
-      changed_.notify_all();
+      changed_.NotifyAll();
     }
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     closed_ = true;
-    changed_.notify_all();
+    changed_.NotifyAll();
   }
 
   void WriteAll(ResendBuffer* buffer, const Fill& fill) {
@@ -68,7 +68,7 @@ class Exchange {
       Request request;
       fill(**next, &request);
       {
-        const std::lock_guard lock(mutex_);
+        const MutexLock lock(mutex_);
         ++open_;
       }
       if (!stream_->Write(request)) return;
@@ -77,14 +77,14 @@ class Exchange {
 
   // False: the stream is closed.
   bool WaitForRoom() {
-    std::unique_lock lock(mutex_);
-    changed_.wait(lock, [&] { return closed_ || open_ < window_; });
+    const MutexLock lock(mutex_);
+    while (!closed_ && open_ >= window_) changed_.Wait(mutex_);
     return !closed_;
   }
 
   void Fail(const absl::Status& status) {
     {
-      const std::lock_guard lock(mutex_);
+      const MutexLock lock(mutex_);
       if (error_.ok()) error_ = status;
     }
     context_->TryCancel();
@@ -93,13 +93,13 @@ class Exchange {
   grpc::ClientContext* context_;
   Stream* stream_;
   const int window_;
-  std::mutex mutex_;
-  std::condition_variable changed_;
+  Mutex mutex_;
+  ConditionVariable changed_;
   // Observations sent and not answered.
-  int open_ = 0;
-  bool closed_ = false;
+  int open_ HOMING_GUARDED_BY(mutex_) = 0;
+  bool closed_ HOMING_GUARDED_BY(mutex_) = false;
   bool ended_ = false;
-  absl::Status error_;
+  absl::Status error_ HOMING_GUARDED_BY(mutex_);
 };
 
 }  // namespace homing::client

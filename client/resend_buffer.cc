@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "absl/strings/str_cat.h"
+#include "homing/base/mutex.h"
 #include "homing/base/status_macros.h"
 
 namespace homing::client {
@@ -19,21 +20,21 @@ std::int64_t ResendBuffer::end() const {
 
 absl::StatusOr<std::shared_ptr<const v1::Observation>> ResendBuffer::Next() {
   {
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     if (cursor_ < end()) return kept_[static_cast<std::size_t>(cursor_++ - begin())];
   }
   // Only this thread moves the cursor, so the stream may be read without the lock.
   HOMING_ASSIGN_OR_RETURN(auto next, stream_->Next());
   if (!next) return std::shared_ptr<const v1::Observation>();
   auto observation = std::make_shared<const v1::Observation>(*std::move(next));
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   kept_.push_back(observation);
   cursor_ = observation->sequence() + 1;
   return observation;
 }
 
 void ResendBuffer::Acknowledge(std::int64_t sequence) {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   acknowledged_ = std::max(acknowledged_, sequence);
   // What is behind the cursor and old enough can go.
   const std::int64_t first = std::min(acknowledged_ - keep_, cursor_);
@@ -41,7 +42,7 @@ void ResendBuffer::Acknowledge(std::int64_t sequence) {
 }
 
 absl::Status ResendBuffer::Rewind(std::int64_t resend_from, std::int64_t durable) {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   if (begin() <= resend_from && resend_from <= end()) {
     cursor_ = resend_from;
     return absl::OkStatus();
@@ -75,7 +76,7 @@ absl::Status ResendBuffer::Rewind(std::int64_t resend_from, std::int64_t durable
 }
 
 std::int64_t ResendBuffer::RewindAll() {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   cursor_ = begin();
   return cursor_;
 }

@@ -6,10 +6,10 @@
 #include <cstdint>
 #include <deque>
 #include <memory>
-#include <mutex>
 
 #include "absl/status/statusor.h"
 #include "client/observation_stream.h"
+#include "homing/base/mutex.h"
 
 namespace homing::client {
 
@@ -34,16 +34,16 @@ class ResendBuffer {
   std::int64_t RewindAll();
 
  private:
-  std::int64_t begin() const;
-  std::int64_t end() const;
+  std::int64_t begin() const HOMING_REQUIRES(mutex_);
+  std::int64_t end() const HOMING_REQUIRES(mutex_);
 
-  std::mutex mutex_;
+  Mutex mutex_;
   ObservationStream* stream_;
   int keep_;
-  std::deque<std::shared_ptr<const v1::Observation>> kept_;
+  std::deque<std::shared_ptr<const v1::Observation>> kept_ HOMING_GUARDED_BY(mutex_);
   // Sequence that Next gives next; all kept before it were sent.
-  std::int64_t cursor_ = 0;
-  std::int64_t acknowledged_ = 0;
+  std::int64_t cursor_ HOMING_GUARDED_BY(mutex_) = 0;
+  std::int64_t acknowledged_ HOMING_GUARDED_BY(mutex_) = 0;
 };
 
 }  // namespace homing::client

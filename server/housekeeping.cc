@@ -4,6 +4,8 @@
 
 #include <string>
 
+#include "homing/base/mutex.h"
+
 namespace homing::server {
 namespace {
 
@@ -18,10 +20,10 @@ Housekeeping::Housekeeping(ServiceCore* core, std::chrono::seconds reload_every)
 
 Housekeeping::~Housekeeping() {
   {
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     stopping_ = true;
   }
-  stop_.notify_all();
+  stop_.NotifyAll();
   thread_.join();
 }
 
@@ -34,8 +36,11 @@ void Housekeeping::Run() {
     if (round % kDeleteEvery.count() == 0) {
       DeleteExpired();
     }
-    std::unique_lock lock(mutex_);
-    if (stop_.wait_for(lock, kRound, [this] { return stopping_; })) {
+    const auto next = std::chrono::steady_clock::now() + kRound;
+    const MutexLock lock(mutex_);
+    while (!stopping_ && stop_.WaitUntil(mutex_, next)) {
+    }
+    if (stopping_) {
       return;
     }
   }

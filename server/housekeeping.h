@@ -4,10 +4,9 @@
 #define SERVER_HOUSEKEEPING_H_
 
 #include <chrono>
-#include <condition_variable>
-#include <mutex>
 #include <thread>
 
+#include "homing/base/mutex.h"
 #include "server/rpc/service_core.h"
 
 namespace homing::server {
@@ -28,9 +27,9 @@ class Housekeeping {
 
   ServiceCore* const core_;
   const std::chrono::seconds reload_every_;
-  std::mutex mutex_;
-  std::condition_variable stop_;
-  bool stopping_ = false;
+  Mutex mutex_;
+  ConditionVariable stop_;
+  bool stopping_ HOMING_GUARDED_BY(mutex_) = false;
   std::thread thread_;
 };
 

@@ -5,6 +5,8 @@
 #include <string>
 #include <utility>
 
+#include "homing/base/mutex.h"
+
 namespace homing::server {
 namespace {
 
@@ -21,10 +23,10 @@ StoreWatch::StoreWatch(storage::JourneyStore* store, OnChange on_change)
 
 StoreWatch::~StoreWatch() {
   {
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     stopping_ = true;
   }
-  stopped_.notify_one();
+  stopped_.NotifyOne();
   thread_.join();
 }
 
@@ -44,8 +46,11 @@ void StoreWatch::Run() {
 }
 
 bool StoreWatch::Sleep(std::chrono::milliseconds time) {
-  std::unique_lock lock(mutex_);
-  return !stopped_.wait_for(lock, time, [this] { return stopping_; });
+  const auto end = std::chrono::steady_clock::now() + time;
+  const MutexLock lock(mutex_);
+  while (!stopping_ && stopped_.WaitUntil(mutex_, end)) {
+  }
+  return !stopping_;
 }
 
 }  // namespace homing::server

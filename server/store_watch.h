@@ -2,11 +2,10 @@
 #ifndef SERVER_STORE_WATCH_H_
 #define SERVER_STORE_WATCH_H_
 
-#include <condition_variable>
 #include <functional>
-#include <mutex>
 #include <thread>
 
+#include "homing/base/mutex.h"
 #include "storage/journey_store.h"
 
 namespace homing::server {
@@ -30,9 +29,9 @@ class StoreWatch {
 
   storage::JourneyStore* const store_;
   const OnChange on_change_;
-  std::mutex mutex_;
-  std::condition_variable stopped_;
-  bool stopping_ = false;
+  Mutex mutex_;
+  ConditionVariable stopped_;
+  bool stopping_ HOMING_GUARDED_BY(mutex_) = false;
   std::thread thread_;
 };
 

@@ -4,6 +4,7 @@
 
 #include <utility>
 
+#include "homing/base/mutex.h"
 #include "homing/base/status_macros.h"
 
 namespace homing::storage {
@@ -22,7 +23,7 @@ constexpr int kMostRounds = 5;
 
 absl::StatusOr<std::unique_ptr<Checkpointer>> Checkpointer::Start(const std::string& path,
                                                                   Connection* writer,
-                                                                  std::mutex* write_mutex,
+                                                                  Mutex* write_mutex,
                                                                   int busy_timeout_ms) {
   HOMING_ASSIGN_OR_RETURN(auto connection,
                           Connection::Open(path, Connection::Access::kReadWrite, busy_timeout_ms));
@@ -36,7 +37,7 @@ absl::StatusOr<std::unique_ptr<Checkpointer>> Checkpointer::Start(const std::str
 }
 
 Checkpointer::Checkpointer(std::unique_ptr<Connection> connection, Connection* writer,
-                           std::mutex* write_mutex)
+                           Mutex* write_mutex)
     : connection_(std::move(connection)),
       writer_(writer),
       write_mutex_(write_mutex),
@@ -54,10 +55,10 @@ Checkpointer::Checkpointer(std::unique_ptr<Connection> connection, Connection* w
 Checkpointer::~Checkpointer() {
   sqlite3_wal_hook(writer_->database().getHandle(), nullptr, nullptr);
   {
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     stopping_ = true;
   }
-  changed_.notify_one();
+  changed_.NotifyOne();
   thread_.join();
 }
 
@@ -66,21 +67,21 @@ void Checkpointer::NoteLog(int pages) {
   if (pages < next_at_) return;
   next_at_ = pages + kPagesToNextTry;
   {
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     due_ = true;
   }
-  changed_.notify_one();
+  changed_.NotifyOne();
 }
 
 void Checkpointer::Run() {
-  std::unique_lock lock(mutex_);
+  MutexLock lock(mutex_);
   while (true) {
-    changed_.wait(lock, [this] { return stopping_ || due_; });
+    while (!stopping_ && !due_) changed_.Wait(mutex_);
     if (stopping_) return;
     due_ = false;
-    lock.unlock();
+    lock.Unlock();
     MoveAll();
-    lock.lock();
+    lock.Lock();
   }
 }
 
@@ -88,7 +89,7 @@ void Checkpointer::MoveAll() {
   int left = kFewPages + 1;
   for (int round = 0; round < kMostRounds && left > kFewPages; ++round) left = Move();
   if (left < 0) return;
-  const std::lock_guard lock(*write_mutex_);
+  const MutexLock lock(*write_mutex_);
   Move();
 }
 

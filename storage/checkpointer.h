@@ -4,13 +4,12 @@
 #ifndef STORAGE_CHECKPOINTER_H_
 #define STORAGE_CHECKPOINTER_H_
 
-#include <condition_variable>
 #include <memory>
-#include <mutex>
 #include <string>
 #include <thread>
 
 #include "absl/status/statusor.h"
+#include "homing/base/mutex.h"
 #include "storage/connection.h"
 
 namespace homing::storage {
@@ -22,8 +21,7 @@ class Checkpointer {
   // Of the file at `path`, which `writer` alone writes, with `write_mutex` held; both must outlive
   // it. Takes the place of the writer's own checkpoints. As Connection::Open.
   static absl::StatusOr<std::unique_ptr<Checkpointer>> Start(const std::string& path,
-                                                             Connection* writer,
-                                                             std::mutex* write_mutex,
+                                                             Connection* writer, Mutex* write_mutex,
                                                              int busy_timeout_ms);
   // Ends what it does.
   ~Checkpointer();
@@ -31,7 +29,7 @@ class Checkpointer {
   Checkpointer& operator=(const Checkpointer&) = delete;
 
  private:
-  Checkpointer(std::unique_ptr<Connection> connection, Connection* writer, std::mutex* write_mutex);
+  Checkpointer(std::unique_ptr<Connection> connection, Connection* writer, Mutex* write_mutex);
   // After each commit.
   void NoteLog(int pages);
   void Run();
@@ -41,12 +39,11 @@ class Checkpointer {
 
   const std::unique_ptr<Connection> connection_;
   Connection* const writer_;
-  std::mutex* const write_mutex_;
-  std::mutex mutex_;
-  std::condition_variable changed_;
-  // Guarded by mutex_.
-  bool due_ = false;
-  bool stopping_ = false;
+  Mutex* const write_mutex_;
+  Mutex mutex_;
+  ConditionVariable changed_;
+  bool due_ HOMING_GUARDED_BY(mutex_) = false;
+  bool stopping_ HOMING_GUARDED_BY(mutex_) = false;
   // Of the log, when it is next due; the writer's.
   int next_at_;
   std::thread thread_;

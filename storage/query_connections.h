@@ -2,13 +2,12 @@
 #ifndef STORAGE_QUERY_CONNECTIONS_H_
 #define STORAGE_QUERY_CONNECTIONS_H_
 
-#include <condition_variable>
 #include <memory>
-#include <mutex>
 #include <string>
 #include <vector>
 
 #include "absl/status/status.h"
+#include "homing/base/mutex.h"
 #include "storage/connection.h"
 
 namespace homing::storage {
@@ -33,11 +32,10 @@ class QueryConnections {
   const std::string path_;
   const Connection::Access access_;
   const int busy_timeout_ms_;
-  std::mutex mutex_;
-  std::condition_variable given_back_;
-  // Both guarded by mutex_.
-  int unopened_;
-  std::vector<std::unique_ptr<Connection>> free_;
+  Mutex mutex_;
+  ConditionVariable given_back_;
+  int unopened_ HOMING_GUARDED_BY(mutex_);
+  std::vector<std::unique_ptr<Connection>> free_ HOMING_GUARDED_BY(mutex_);
 };
 
 }  // namespace homing::storage

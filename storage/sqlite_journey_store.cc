@@ -1,6 +1,7 @@
 #include "storage/sqlite_journey_store.h"
 
 #include "absl/strings/str_cat.h"
+#include "homing/base/mutex.h"
 #include "homing/base/status_macros.h"
 #include "storage/backup.h"
 #include "storage/journey_rows.h"
@@ -22,11 +23,12 @@ absl::Status SqliteJourneyStore::Transact(const Body& body) {
     return absl::FailedPreconditionError(
         "store: it is read-only (--readonly): nothing can be recorded, changed or deleted");
   }
-  std::lock_guard lock(write_mutex_);
-  const int changes = writer_->changes();
-  absl::Status status = writer_->Write([&] { return body(*writer_); });
+  const MutexLock lock(write_mutex_);
+  Connection& writer = *writer_;
+  const int changes = writer.changes();
+  absl::Status status = writer.Write([&] { return body(writer); });
   if (!status.ok()) appends_.Forget();
-  NoteHealth(status, writer_->changes() != changes);
+  NoteHealth(status, writer.changes() != changes);
   return status;
 }
 
@@ -40,27 +42,29 @@ absl::Status SqliteJourneyStore::Write(const Body& body) {
 void SqliteJourneyStore::NoteHealth(const absl::Status& written, bool changed) {
   const bool fault = IsStoreFault(written);
   if (!fault && !(written.ok() && changed)) return;
-  const std::lock_guard lock(health_mutex_);
+  const MutexLock lock(health_mutex_);
   write_health_ = fault ? written : absl::OkStatus();
 }
 
 absl::Status SqliteJourneyStore::WriteHealth() {
-  const std::lock_guard lock(health_mutex_);
+  const MutexLock lock(health_mutex_);
   return write_health_;
 }
 
 absl::Status SqliteJourneyStore::ProbeWrite() {
   if (!read_only()) {
-    const std::lock_guard lock(write_mutex_);
-    NoteHealth(writer_->Write([&] { return TouchSchemaVersion(*writer_); }), true);
+    const MutexLock lock(write_mutex_);
+    Connection& writer = *writer_;
+    NoteHealth(writer.Write([&] { return TouchSchemaVersion(writer); }), true);
   }
   return WriteHealth();
 }
 
 absl::Status SqliteJourneyStore::Read(const Body& body) {
   if (queries_) return queries_->Read(body);
-  std::lock_guard lock(write_mutex_);
-  return writer_->Read([&] { return body(*writer_); });
+  const MutexLock lock(write_mutex_);
+  Connection& writer = *writer_;
+  return writer.Read([&] { return body(writer); });
 }
 
 template <typename Result, typename Query>
@@ -157,11 +161,12 @@ absl::StatusOr<std::unique_ptr<std::istream>> SqliteJourneyStore::BackUp() {
                      read_only() ? "read-only: its file itself may be copied"
                                  : "in memory and cannot be copied"));
   }
-  const std::unique_lock lock(backup_mutex_, std::try_to_lock);
-  if (!lock) {
+  if (backing_up_.exchange(true)) {
     return absl::AbortedError("store: another copy is being made; try again when it is done");
   }
-  return CopyForReading(path_, path_ + "-backup");
+  absl::StatusOr<std::unique_ptr<std::istream>> copy = CopyForReading(path_, path_ + "-backup");
+  backing_up_ = false;
+  return copy;
 }
 
 absl::Status SqliteJourneyStore::CreateModel(const StoredModel& model) {

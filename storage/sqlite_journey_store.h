@@ -2,12 +2,13 @@
 #ifndef STORAGE_SQLITE_JOURNEY_STORE_H_
 #define STORAGE_SQLITE_JOURNEY_STORE_H_
 
+#include <atomic>
 #include <functional>
 #include <memory>
-#include <mutex>
 #include <string>
 #include <vector>
 
+#include "homing/base/mutex.h"
 #include "storage/checkpointer.h"
 #include "storage/connection.h"
 #include "storage/journey_store.h"
@@ -57,29 +58,27 @@ class SqliteJourneyStore final : public JourneyStore {
   // In one transaction: what changes more than appends do, which then read their rows again.
   absl::Status Write(const Body& body);
   absl::Status Transact(const Body& body);
-  // REQUIRES write_mutex_.
-  void NoteHealth(const absl::Status& written, bool changed);
+  void NoteHealth(const absl::Status& written, bool changed) HOMING_REQUIRES(write_mutex_);
   absl::Status Read(const Body& body);
   // What `query` gives in one read transaction.
   template <typename Result, typename Query>
   absl::StatusOr<Result> ReadOne(Query query);
 
   const std::string path_;
-  // Let go of last.
+  // Released last.
   const std::unique_ptr<StoreLock> lock_;
-  std::mutex write_mutex_;
-  // Guarded by write_mutex_, the pointer apart.
-  const std::unique_ptr<Connection> writer_;
-  // Guarded by write_mutex_.
+  Mutex write_mutex_;
+  const std::unique_ptr<Connection> writer_ HOMING_PT_GUARDED_BY(write_mutex_);
+  // Bodies of Write and AppendSteps use it: they run with write_mutex_ held.
   StepAppends appends_;
-  std::mutex health_mutex_;
-  // Guarded by health_mutex_, so that asking never waits for a write.
-  absl::Status write_health_;
+  Mutex health_mutex_;
+  // Has its own mutex, so that reading it never waits for a write.
+  absl::Status write_health_ HOMING_GUARDED_BY(health_mutex_);
   std::unique_ptr<QueryConnections> queries_;
   // Ends before the writer.
   std::unique_ptr<Checkpointer> checkpointer_;
-  // While a copy is being made.
-  std::mutex backup_mutex_;
+  // A copy is being made.
+  std::atomic<bool> backing_up_ = false;
 };
 
 }  // namespace homing::storage

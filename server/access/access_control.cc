@@ -7,6 +7,7 @@
 #include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
 #include "absl/strings/strip.h"
+#include "homing/base/mutex.h"
 #include "homing/base/status_macros.h"
 #include "server/base/error_reason.h"
 
@@ -52,7 +53,7 @@ absl::Status AccessControl::ReadFiles(bool (*is_due)(const std::string& path)) {
     absl::StatusOr<TokenBook> book = TokenBook::Read(files_.tokens);
     status.Update(book.status());
     if (book.ok()) {
-      const std::lock_guard lock(mutex_);
+      const MutexLock lock(mutex_);
       tokens_ = std::make_shared<TokenBook>(*std::move(book));
     }
   }
@@ -60,7 +61,7 @@ absl::Status AccessControl::ReadFiles(bool (*is_due)(const std::string& path)) {
     absl::StatusOr<RoleBook> book = RoleBook::Read(files_.roles);
     status.Update(book.status());
     if (book.ok()) {
-      const std::lock_guard lock(mutex_);
+      const MutexLock lock(mutex_);
       roles_ = std::make_shared<RoleBook>(*std::move(book));
     }
   }
@@ -82,7 +83,7 @@ absl::StatusOr<std::string> AccessControl::IdentityOfToken(const Credentials& cr
   }
   std::shared_ptr<const TokenBook> tokens;
   {
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     tokens = tokens_;
   }
   auto identity = tokens->Find(header.substr(kBearerSize));
@@ -119,7 +120,7 @@ absl::StatusOr<Caller> AccessControl::Identify(const Credentials& credentials) c
     }
     caller.identity = std::move(identity);
   }
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   caller.role = roles_->Find(caller.identity);
   return caller;
 }

@@ -3,11 +3,11 @@
 #define SERVER_ACCESS_ACCESS_CONTROL_H_
 
 #include <memory>
-#include <mutex>
 #include <string>
 
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
+#include "homing/base/mutex.h"
 #include "server/access/caller.h"
 #include "server/access/client_certificates.h"
 #include "server/access/role_book.h"
@@ -51,9 +51,10 @@ class AccessControl {
   const AccessFiles files_;
   const bool is_open_;
   std::unique_ptr<ClientCertificates> certificates_;
-  mutable std::mutex mutex_;
-  std::shared_ptr<const TokenBook> tokens_ = std::make_shared<TokenBook>();
-  std::shared_ptr<const RoleBook> roles_ = std::make_shared<RoleBook>();
+  mutable Mutex mutex_;
+  std::shared_ptr<const TokenBook> tokens_ HOMING_GUARDED_BY(mutex_) =
+      std::make_shared<TokenBook>();
+  std::shared_ptr<const RoleBook> roles_ HOMING_GUARDED_BY(mutex_) = std::make_shared<RoleBook>();
 };
 
 }  // namespace homing::server

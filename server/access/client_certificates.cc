@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "absl/strings/str_cat.h"
+#include "homing/base/mutex.h"
 #include "homing/base/status_macros.h"
 #include "server/access/flag_file.h"
 #include "server/base/error_reason.h"
@@ -92,7 +93,7 @@ absl::Status ClientCertificates::Reload() {
   if (status.ok() && !crl_dir_.empty()) {
     status = AddRevocationFolder(crl_dir_, store.get());
   }
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   known_.clear();
   if (status.ok()) {
     store_ = std::move(store);
@@ -103,14 +104,14 @@ absl::Status ClientCertificates::Reload() {
 absl::Status ClientCertificates::Check(const std::string& chain_pem) const {
   std::shared_ptr<X509_STORE> store;
   {
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     if (const auto found = known_.find(chain_pem); found != known_.end()) {
       return found->second;
     }
     store = store_;
   }
   absl::Status status = Verify(store.get(), chain_pem);
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   if (store == store_ && known_.size() < kMostKnown) {
     known_.emplace(chain_pem, status);
   }

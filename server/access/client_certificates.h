@@ -4,12 +4,12 @@
 #define SERVER_ACCESS_CLIENT_CERTIFICATES_H_
 
 #include <memory>
-#include <mutex>
 #include <string>
 #include <unordered_map>
 
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
+#include "homing/base/mutex.h"
 #include "server/access/openssl_handle.h"
 
 namespace homing::server {
@@ -37,10 +37,10 @@ class ClientCertificates {
 
   const std::string ca_file_;
   const std::string crl_dir_;
-  mutable std::mutex mutex_;
-  std::shared_ptr<X509_STORE> store_;
+  mutable Mutex mutex_;
+  std::shared_ptr<X509_STORE> store_ HOMING_GUARDED_BY(mutex_);
   // What Verify said since the last Reload.
-  mutable std::unordered_map<std::string, absl::Status> known_;
+  mutable std::unordered_map<std::string, absl::Status> known_ HOMING_GUARDED_BY(mutex_);
 };
 
 }  // namespace homing::server

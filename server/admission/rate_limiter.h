@@ -3,10 +3,10 @@
 #define SERVER_ADMISSION_RATE_LIMITER_H_
 
 #include <map>
-#include <mutex>
 #include <string>
 
 #include "absl/status/status.h"
+#include "homing/base/mutex.h"
 #include "server/catalog/writer_lease.h"
 
 namespace homing::server {
@@ -26,12 +26,12 @@ class RateLimiter {
     TimePoint at{};
   };
   double TokensAt(const Bucket& bucket, TimePoint now) const;
-  void ForgetFull(TimePoint now);
+  void ForgetFull(TimePoint now) HOMING_REQUIRES(mutex_);
 
   const double rate_;
-  std::mutex mutex_;
-  std::map<std::string, Bucket> buckets_;
-  std::size_t next_sweep_ = 1024;
+  Mutex mutex_;
+  std::map<std::string, Bucket> buckets_ HOMING_GUARDED_BY(mutex_);
+  std::size_t next_sweep_ HOMING_GUARDED_BY(mutex_) = 1024;
 };
 
 }  // namespace homing::server

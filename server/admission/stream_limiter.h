@@ -3,11 +3,11 @@
 #define SERVER_ADMISSION_STREAM_LIMITER_H_
 
 #include <map>
-#include <mutex>
 #include <string>
 
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
+#include "homing/base/mutex.h"
 #include "server/admission/limits.h"
 
 namespace homing::server {
@@ -42,9 +42,9 @@ class StreamLimiter {
 
   const int max_all_;
   const int max_robot_;
-  mutable std::mutex mutex_;
-  int open_ = 0;
-  std::map<std::string, int> of_robot_;
+  mutable Mutex mutex_;
+  int open_ HOMING_GUARDED_BY(mutex_) = 0;
+  std::map<std::string, int> of_robot_ HOMING_GUARDED_BY(mutex_);
 };
 
 }  // namespace homing::server

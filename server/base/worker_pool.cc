@@ -4,6 +4,8 @@
 #include <opencv2/core/utility.hpp>
 #include <utility>
 
+#include "homing/base/mutex.h"
+
 namespace homing::server {
 namespace {
 
@@ -27,10 +29,10 @@ WorkerPool::WorkerPool(int workers, int max_waiting)
 
 WorkerPool::~WorkerPool() {
   {
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     stopping_ = true;
   }
-  changed_.notify_all();
+  changed_.NotifyAll();
   for (std::thread& thread : threads_) {
     thread.join();
   }
@@ -38,48 +40,48 @@ WorkerPool::~WorkerPool() {
 
 bool WorkerPool::TryRun(Task task) {
   {
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     if (tasks_.size() >= max_waiting_) {
       return false;
     }
     tasks_.push_back(std::move(task));
   }
-  changed_.notify_one();
+  changed_.NotifyOne();
   return true;
 }
 
 void WorkerPool::Run(Task task) {
   {
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     tasks_.push_back(std::move(task));
   }
-  changed_.notify_one();
+  changed_.NotifyOne();
 }
 
 std::size_t WorkerPool::waiting() const {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   return tasks_.size();
 }
 
 void WorkerPool::Work() {
-  std::unique_lock lock(mutex_);
+  MutexLock lock(mutex_);
   while (true) {
-    changed_.wait(lock, [this] { return stopping_ || !tasks_.empty(); });
+    while (!stopping_ && tasks_.empty()) changed_.Wait(mutex_);
     if (tasks_.empty()) {
       return;
     }
     Task task = std::move(tasks_.front());
     tasks_.pop_front();
-    lock.unlock();
+    lock.Unlock();
     task();
     task = nullptr;
-    lock.lock();
+    lock.Lock();
   }
 }
 
 void Strand::Post(WorkerPool::Task task) {
   {
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     tasks_.push_back(std::move(task));
     if (scheduled_) {
       return;
@@ -91,7 +93,7 @@ void Strand::Post(WorkerPool::Task task) {
 
 void Strand::RunOrPost(WorkerPool::Task task) {
   {
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     if (scheduled_) {
       tasks_.push_back(std::move(task));
       return;
@@ -100,7 +102,7 @@ void Strand::RunOrPost(WorkerPool::Task task) {
   }
   task();
   {
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     scheduled_ = !tasks_.empty();
     if (!scheduled_) {
       return;
@@ -117,7 +119,7 @@ void Strand::RunSome() {
   for (int run = 0; run < kTasksATurn; ++run) {
     WorkerPool::Task task;
     {
-      const std::lock_guard lock(mutex_);
+      const MutexLock lock(mutex_);
       if (tasks_.empty()) {
         scheduled_ = false;
         return;

@@ -3,14 +3,14 @@
 #ifndef SERVER_BASE_WORKER_POOL_H_
 #define SERVER_BASE_WORKER_POOL_H_
 
-#include <condition_variable>
 #include <deque>
 #include <functional>
 #include <list>
 #include <memory>
-#include <mutex>
 #include <thread>
 #include <vector>
+
+#include "homing/base/mutex.h"
 
 namespace homing::server {
 
@@ -38,10 +38,10 @@ class WorkerPool {
   void Work();
 
   const std::size_t max_waiting_;
-  mutable std::mutex mutex_;
-  std::condition_variable changed_;
-  std::deque<Task> tasks_;
-  bool stopping_ = false;
+  mutable Mutex mutex_;
+  ConditionVariable changed_;
+  std::deque<Task> tasks_ HOMING_GUARDED_BY(mutex_);
+  bool stopping_ HOMING_GUARDED_BY(mutex_) = false;
   std::vector<std::thread> threads_;
 };
 
@@ -60,10 +60,10 @@ class Strand : public std::enable_shared_from_this<Strand> {
   void GoOn();
 
   WorkerPool* const pool_;
-  std::mutex mutex_;
+  Mutex mutex_;
   // An empty deque takes 600 bytes, and strands are many.
-  std::list<WorkerPool::Task> tasks_;
-  bool scheduled_ = false;
+  std::list<WorkerPool::Task> tasks_ HOMING_GUARDED_BY(mutex_);
+  bool scheduled_ HOMING_GUARDED_BY(mutex_) = false;
 };
 
 }  // namespace homing::server

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "absl/strings/str_cat.h"
+#include "homing/base/mutex.h"
 #include "homing/base/status_macros.h"
 #include "server/base/error_reason.h"
 
@@ -25,12 +26,12 @@ FleetIndex::~FleetIndex() {
 }
 
 void FleetIndex::Build() {
-  const std::lock_guard lock(data_mutex_);
+  const MutexLock lock(data_mutex_);
   index_.BeginLoading();
   const absl::Status status = LoadAll();
   index_.EndLoading();
-  TakeIn();
-  const std::lock_guard queue_lock(queue_mutex_);
+  ApplyPending();
+  const MutexLock queue_lock(queue_mutex_);
   build_status_ = status;
   ready_ = status.ok();
 }
@@ -68,36 +69,38 @@ absl::Status FleetIndex::Load(const storage::JourneyRecord& record) {
 }
 
 void FleetIndex::Created(const std::string& name, const JourneySettings& settings) {
-  Tell({name, settings, std::nullopt, nullptr, false});
+  Enqueue({name, settings, std::nullopt, nullptr, false});
 }
 
 void FleetIndex::Appended(const std::string& name, const JourneySettings& settings,
                           const JourneyStep& step) {
-  Tell({name, settings, step, nullptr, false});
+  Enqueue({name, settings, step, nullptr, false});
 }
 
 void FleetIndex::Imported(const std::string& name, const JourneySettings& settings,
                           const JourneyMap& map) {
-  Tell({name, settings, std::nullopt, std::make_shared<const JourneyMap>(map), false});
+  Enqueue({name, settings, std::nullopt, std::make_shared<const JourneyMap>(map), false});
 }
 
-void FleetIndex::Deleted(const std::string& name) { Tell({name, {}, std::nullopt, nullptr, true}); }
+void FleetIndex::Deleted(const std::string& name) {
+  Enqueue({name, {}, std::nullopt, nullptr, true});
+}
 
-void FleetIndex::Tell(Change change) {
+void FleetIndex::Enqueue(Change change) {
   {
-    const std::lock_guard lock(queue_mutex_);
+    const MutexLock lock(queue_mutex_);
     queue_.push_back(std::move(change));
   }
-  if (data_mutex_.try_lock()) {
-    TakeIn();
-    data_mutex_.unlock();
+  if (data_mutex_.TryLock()) {
+    ApplyPending();
+    data_mutex_.Unlock();
   }
 }
 
-void FleetIndex::TakeIn() {
+void FleetIndex::ApplyPending() {
   std::vector<Change> changes;
   {
-    const std::lock_guard lock(queue_mutex_);
+    const MutexLock lock(queue_mutex_);
     changes.swap(queue_);
   }
   for (const Change& change : changes) {
@@ -172,7 +175,7 @@ absl::Status FleetIndex::CheckReady() const {
   if (ready_) {
     return absl::OkStatus();
   }
-  const std::lock_guard lock(queue_mutex_);
+  const MutexLock lock(queue_mutex_);
   return WithReason(
       absl::UnavailableError(absl::StrCat(
           "journey: \"robots/-/journeys/-\" needs the index of all journeys, which ",
@@ -181,17 +184,17 @@ absl::Status FleetIndex::CheckReady() const {
       {"INDEX_NOT_READY", {}});
 }
 
-std::shared_lock<std::shared_mutex> FleetIndex::Lock() {
+FleetIndex::ReadLock::ReadLock(FleetIndex* index) : index_(index) {
   bool behind = false;
   {
-    const std::lock_guard lock(queue_mutex_);
-    behind = !queue_.empty();
+    const MutexLock lock(index_->queue_mutex_);
+    behind = !index_->queue_.empty();
   }
   if (behind) {
-    const std::lock_guard lock(data_mutex_);
-    TakeIn();
+    const MutexLock lock(index_->data_mutex_);
+    index_->ApplyPending();
   }
-  return std::shared_lock(data_mutex_);
+  index_->data_mutex_.LockShared();
 }
 
 absl::StatusOr<SettingsSelection> FleetIndex::SelectLocked(const QueryRobot& robot) const {
@@ -213,7 +216,7 @@ absl::StatusOr<SettingsSelection> FleetIndex::SelectLocked(const QueryRobot& rob
 
 absl::StatusOr<LocalizerOptions> FleetIndex::Select(const QueryRobot& robot) {
   HOMING_RETURN_IF_ERROR(CheckReady());
-  const auto lock = Lock();
+  const ReadLock lock(this);
   HOMING_ASSIGN_OR_RETURN(SettingsSelection selection, SelectLocked(robot));
   return selection.options;
 }
@@ -221,9 +224,9 @@ absl::StatusOr<LocalizerOptions> FleetIndex::Select(const QueryRobot& robot) {
 absl::StatusOr<std::vector<std::pair<std::string, Match>>> FleetIndex::Find(
     const QueryRobot& robot, const SeenSides& seen, const MatchOptions& options) {
   HOMING_RETURN_IF_ERROR(CheckReady());
-  const auto lock = Lock();
+  const ReadLock lock(this);
   HOMING_ASSIGN_OR_RETURN(const SettingsSelection selection, SelectLocked(robot));
-  const auto covers = [&](int journey) {
+  const auto covers = [&](int journey) HOMING_REQUIRES_SHARED(data_mutex_) {
     return bool{selection.chosen[entries_[static_cast<std::size_t>(journey)].settings]};
   };
   std::vector<std::pair<std::string, Match>> matches;

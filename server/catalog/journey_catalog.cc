@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "absl/strings/str_cat.h"
+#include "homing/base/mutex.h"
 #include "homing/base/status_macros.h"
 #include "server/base/error_reason.h"
 #include "server/catalog/fleet_index.h"
@@ -45,12 +46,12 @@ bool IsSameJourney(const JourneyRecord& wanted, const JourneyRecord& present) {
 
 }  // namespace
 
-std::mutex& JourneyCatalog::StripeOf(const std::string& name) {
+Mutex& JourneyCatalog::StripeOf(const std::string& name) {
   return stripes_[std::hash<std::string>()(name) % stripes_.size()];
 }
 
 std::shared_ptr<LiveJourney> JourneyCatalog::Find(const std::string& name) {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   const auto found = live_.find(name);
   return found == live_.end() ? nullptr : Use(&found->second);
 }
@@ -64,7 +65,7 @@ std::int64_t JourneyCatalog::EvictUnused() {
   if (options_.cache_bytes <= 0) {
     return 0;
   }
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   std::int64_t bytes = 0;
   std::vector<std::pair<std::uint64_t, std::map<std::string, Cached>::iterator>> unused;
   for (auto cached = live_.begin(); cached != live_.end(); ++cached) {
@@ -96,7 +97,7 @@ absl::StatusOr<std::shared_ptr<LiveJourney>> JourneyCatalog::OpenLocked(const st
   }
   HOMING_ASSIGN_OR_RETURN(JourneyRecord record, store_->GetJourney(name));
   auto journey = std::make_shared<LiveJourney>(std::move(record), store_, index_);
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   live_[name] = {journey, ++uses_};
   return journey;
 }
@@ -105,7 +106,7 @@ absl::StatusOr<std::shared_ptr<LiveJourney>> JourneyCatalog::FindOrOpen(const st
   if (auto journey = Find(name)) {
     return journey;
   }
-  const std::lock_guard lock(StripeOf(name));
+  const MutexLock lock(StripeOf(name));
   return OpenLocked(name);
 }
 
@@ -130,7 +131,7 @@ absl::StatusOr<JourneyRecord> JourneyCatalog::GetSameOrExists(const JourneyRecor
 }
 
 absl::StatusOr<JourneyRecord> JourneyCatalog::Create(const JourneyRecord& record) {
-  const std::lock_guard lock(StripeOf(record.name));
+  const MutexLock lock(StripeOf(record.name));
   const absl::Status status = store_->CreateJourney(record);
   if (absl::IsAlreadyExists(status)) {
     return GetSameOrExists(record);
@@ -174,7 +175,7 @@ absl::StatusOr<std::vector<JourneyRecord>> JourneyCatalog::List(const std::strin
 }
 
 absl::Status JourneyCatalog::Delete(const std::string& name) {
-  const std::lock_guard lock(StripeOf(name));
+  const MutexLock lock(StripeOf(name));
   const auto journey = Find(name);
   if (journey) {
     journey->EvictWriter(
@@ -187,7 +188,7 @@ absl::Status JourneyCatalog::Delete(const std::string& name) {
   }
   if (journey) {
     journey->MarkDeleted();
-    const std::lock_guard table_lock(mutex_);
+    const MutexLock table_lock(mutex_);
     live_.erase(name);
   }
   return absl::OkStatus();
@@ -195,7 +196,7 @@ absl::Status JourneyCatalog::Delete(const std::string& name) {
 
 absl::StatusOr<JourneyRecord> JourneyCatalog::Finish(const std::string& name,
                                                      const std::string& writer_id, TimePoint now) {
-  const std::lock_guard lock(StripeOf(name));
+  const MutexLock lock(StripeOf(name));
   const auto journey = Find(name);
   if (journey) {
     HOMING_RETURN_IF_ERROR(journey->CheckWriter(writer_id, now));
@@ -213,7 +214,7 @@ absl::StatusOr<JourneyRecord> JourneyCatalog::Finish(const std::string& name,
 
 absl::StatusOr<JourneyRecord> JourneyCatalog::Import(const JourneyRecord& record,
                                                      const JourneyMap& map) {
-  const std::lock_guard lock(StripeOf(record.name));
+  const MutexLock lock(StripeOf(record.name));
   HOMING_RETURN_IF_ERROR(store_->ImportJourney(record, map));
   if (index_ != nullptr) {
     index_->Imported(record.name, record.settings, map);
@@ -304,14 +305,14 @@ absl::StatusOr<WriterClaim> JourneyCatalog::Claim(const std::string& name,
   if (store_->read_only()) {
     return absl::FailedPreconditionError("the server is read-only: it records nothing");
   }
-  const std::lock_guard lock(StripeOf(name));
+  const MutexLock lock(StripeOf(name));
   auto journey = Find(name);
   if (!journey) {
     HOMING_ASSIGN_OR_RETURN(journey, OpenLocked(name));
     EvictUnused();
   }
   {
-    const std::lock_guard table_lock(mutex_);
+    const MutexLock table_lock(mutex_);
     now_ = std::max(now_, now);
   }
   HOMING_RETURN_IF_ERROR(journey->CheckClaim(writer_id, now));

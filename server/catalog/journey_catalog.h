@@ -6,12 +6,12 @@
 #include <functional>
 #include <map>
 #include <memory>
-#include <mutex>
 #include <string>
 #include <vector>
 
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
+#include "homing/base/mutex.h"
 #include "server/base/resource_name.h"
 #include "server/catalog/live_journey.h"
 #include "storage/journey_store.h"
@@ -83,7 +83,7 @@ class JourneyCatalog {
 
  private:
   // Serialises what makes, loads, finishes and deletes one journey.
-  std::mutex& StripeOf(const std::string& name);
+  Mutex& StripeOf(const std::string& name);
   std::shared_ptr<LiveJourney> Find(const std::string& name);
   // Without its map. REQUIRES: the stripe.
   absl::StatusOr<std::shared_ptr<LiveJourney>> OpenLocked(const std::string& name);
@@ -100,20 +100,19 @@ class JourneyCatalog {
     // Grows with each use.
     std::uint64_t last_used = 0;
   };
-  // REQUIRES: mutex_.
-  std::shared_ptr<LiveJourney> Use(Cached* cached);
+  std::shared_ptr<LiveJourney> Use(Cached* cached) HOMING_REQUIRES(mutex_);
   // As cache_bytes says. Returns the bytes that are still in use.
   std::int64_t EvictUnused();
 
   storage::JourneyStore* const store_;
   const CatalogOptions options_;
   FleetIndex* const index_;
-  std::array<std::mutex, 32> stripes_;
-  std::mutex mutex_;
-  std::map<std::string, Cached> live_;
-  std::uint64_t uses_ = 0;
-  // The latest that a caller told.
-  TimePoint now_;
+  std::array<Mutex, 32> stripes_;
+  Mutex mutex_;
+  std::map<std::string, Cached> live_ HOMING_GUARDED_BY(mutex_);
+  std::uint64_t uses_ HOMING_GUARDED_BY(mutex_) = 0;
+  // The latest time that a caller gave.
+  TimePoint now_ HOMING_GUARDED_BY(mutex_);
 };
 
 }  // namespace homing::server

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "absl/strings/str_cat.h"
+#include "homing/base/mutex.h"
 #include "homing/base/status_macros.h"
 #include "server/base/error_reason.h"
 #include "server/catalog/fleet_index.h"
@@ -33,18 +34,18 @@ LiveJourney::LiveJourney(storage::JourneyRecord record, storage::JourneyStore* s
     : name_(record.name), store_(store), index_(index), record_(std::move(record)) {}
 
 storage::JourneyRecord LiveJourney::record() const {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   return record_;
 }
 
 bool LiveJourney::deleted() const {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   return deleted_;
 }
 
 std::int64_t LiveJourney::MemoryBytes() const {
   constexpr std::int64_t kBytesAJourney = 2048;
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   if (map_state_ == MapState::kNone) return kBytesAJourney;
   const auto steps = static_cast<std::int64_t>(sizeof(std::int64_t) + 2 * sizeof(FlowProfile));
   return kBytesAJourney + record_.step_count * steps +
@@ -53,7 +54,7 @@ std::int64_t LiveJourney::MemoryBytes() const {
 }
 
 bool LiveJourney::IsIdle(TimePoint now) const {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   return appends_under_way_ == 0 && lease_.CheckFree("", now).ok();
 }
 
@@ -72,8 +73,8 @@ absl::Status LiveJourney::CheckWritable() const {
   return absl::OkStatus();
 }
 
-void LiveJourney::AwaitQuiet(std::unique_lock<std::mutex>* lock) {
-  quiet_.wait(*lock, [this] { return appends_under_way_ == 0; });
+void LiveJourney::AwaitQuiet() {
+  while (appends_under_way_ > 0) quiet_.Wait(mutex_);
 }
 
 absl::StatusOr<std::uint64_t> LiveJourney::Claim(const std::string& writer_id, TimePoint now,
@@ -81,11 +82,11 @@ absl::StatusOr<std::uint64_t> LiveJourney::Claim(const std::string& writer_id, T
   WriterLease::Evict previous;
   std::uint64_t claim = 0;
   {
-    std::unique_lock lock(mutex_);
+    const MutexLock lock(mutex_);
     HOMING_RETURN_IF_ERROR(CheckWritable());
     HOMING_RETURN_IF_ERROR(lease_.CheckFree(writer_id, now));
     claim = lease_.Take(writer_id, now, std::move(evict), &previous);
-    AwaitQuiet(&lock);
+    AwaitQuiet();
     record_.writer_id = writer_id;
   }
   if (previous) {
@@ -95,13 +96,13 @@ absl::StatusOr<std::uint64_t> LiveJourney::Claim(const std::string& writer_id, T
 }
 
 absl::Status LiveJourney::CheckClaim(const std::string& writer_id, TimePoint now) const {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   HOMING_RETURN_IF_ERROR(CheckWritable());
   return lease_.CheckFree(writer_id, now);
 }
 
 absl::Status LiveJourney::Renew(std::uint64_t claim, TimePoint now) {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   if (!lease_.Holds(claim)) {
     return ClaimOver(name_);
   }
@@ -110,7 +111,7 @@ absl::Status LiveJourney::Renew(std::uint64_t claim, TimePoint now) {
 }
 
 absl::Status LiveJourney::BeginAppend(std::uint64_t claim) {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   if (!lease_.Holds(claim)) {
     return ClaimOver(name_);
   }
@@ -121,7 +122,7 @@ absl::Status LiveJourney::BeginAppend(std::uint64_t claim) {
 void LiveJourney::EndAppend(const storage::JourneyAppend& append, const absl::Status& status) {
   std::optional<JourneySettings> indexed;
   {
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     if (status.ok()) {
       record_.next_sequence = append.sequence + 1;
       record_.input = append.input;
@@ -147,22 +148,22 @@ void LiveJourney::EndAppend(const storage::JourneyAppend& append, const absl::St
   }
   {
     // Last: who deletes the journey waits for it, and tells the index then.
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     --appends_under_way_;
   }
-  quiet_.notify_all();
-  if (map_mutex_.try_lock()) {
+  quiet_.NotifyAll();
+  if (map_mutex_.TryLock()) {
     AbsorbSteps();
-    map_mutex_.unlock();
+    map_mutex_.Unlock();
   }
 }
 
 void LiveJourney::EvictWriter(const absl::Status& reason) {
   WriterLease::Evict evict;
   {
-    std::unique_lock lock(mutex_);
+    const MutexLock lock(mutex_);
     evict = lease_.Release();
-    AwaitQuiet(&lock);
+    AwaitQuiet();
   }
   if (evict) {
     evict(reason);
@@ -170,24 +171,24 @@ void LiveJourney::EvictWriter(const absl::Status& reason) {
 }
 
 absl::Status LiveJourney::CheckWriter(const std::string& writer_id, TimePoint now) const {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   return lease_.CheckFree(writer_id, now);
 }
 
 void LiveJourney::MarkFinished() {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   record_.state = storage::JourneyState::kFinished;
 }
 
 void LiveJourney::MarkDeleted() {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   deleted_ = true;
 }
 
 void LiveJourney::AbsorbSteps() {
   std::vector<JourneyStep> steps;
   {
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     if (map_state_ != MapState::kLoaded) return;
     steps.swap(unabsorbed_);
     if (std::exchange(settings_changed_, false)) {
@@ -203,15 +204,15 @@ void LiveJourney::AbsorbSteps() {
 }
 
 absl::Status LiveJourney::LoadMap() {
-  const std::lock_guard load_lock(load_mutex_);
+  const MutexLock load_lock(load_mutex_);
   {
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     if (map_state_ == MapState::kLoaded) return absl::OkStatus();
     map_state_ = MapState::kLoading;
   }
   absl::StatusOr<JourneyMap> map = store_->LoadMap(name_);
-  const std::lock_guard map_lock(map_mutex_);
-  const std::lock_guard lock(mutex_);
+  const MutexLock map_lock(map_mutex_);
+  const MutexLock lock(mutex_);
   // Another of the same name may have been made since, and its map been read.
   absl::Status status = deleted_ ? CheckPresent() : map.status();
   if (!status.ok()) {
@@ -225,31 +226,31 @@ absl::Status LiveJourney::LoadMap() {
 }
 
 bool LiveJourney::has_map() const {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   return map_state_ == MapState::kLoaded;
 }
 
 void LiveJourney::LockMap() {
   bool behind = false;
   {
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     behind = !unabsorbed_.empty() || settings_changed_;
   }
   if (behind) {
-    map_mutex_.lock();
+    map_mutex_.Lock();
     AbsorbSteps();
-    map_mutex_.unlock();
+    map_mutex_.Unlock();
   }
-  map_mutex_.lock_shared();
+  map_mutex_.LockShared();
 }
 
-MapsLock::MapsLock(const LiveJourneys& journeys) : journeys_(journeys) {
+MapsLock::MapsLock(const LiveJourneys& journeys) HOMING_UNCHECKED_LOCKS : journeys_(journeys) {
   for (const std::shared_ptr<LiveJourney>& journey : journeys_) {
     journey->LockMap();
   }
 }
 
-MapsLock::~MapsLock() {
+MapsLock::~MapsLock() HOMING_UNCHECKED_LOCKS {
   for (const std::shared_ptr<LiveJourney>& journey : journeys_) {
     journey->UnlockMap();
   }

@@ -2,16 +2,14 @@
 #ifndef SERVER_CATALOG_LIVE_JOURNEY_H_
 #define SERVER_CATALOG_LIVE_JOURNEY_H_
 
-#include <condition_variable>
 #include <cstdint>
 #include <memory>
-#include <mutex>
-#include <shared_mutex>
 #include <string>
 #include <vector>
 
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
+#include "homing/base/mutex.h"
 #include "homing/journey/journey_map.h"
 #include "homing/journey/journey_recorder.h"
 #include "server/catalog/writer_lease.h"
@@ -24,8 +22,7 @@ class FleetIndex;
 // Holds nothing that is not durable. Thread-safe. There is no map until someone is to read it: most
 // journeys that are recorded have no reader. From then on steps that were committed wait in a short
 // list until a reader or an idle moment takes them into the map: the thread that commits never
-// waits for those who load or localise. (std::shared_mutex rather than absl::Mutex: ThreadSanitizer
-// sees it.)
+// waits for those who load or localise.
 class LiveJourney {
  public:
   // `record` as in the store. `index`, unless null, is told of each step. Both must outlive the
@@ -77,41 +74,41 @@ class LiveJourney {
   bool has_map() const;
   // Takes the map for reading, up to date. REQUIRES: has_map; journeys locked together are locked
   // in order of name, each once.
-  void LockMap();
-  void UnlockMap() { map_mutex_.unlock_shared(); }
-  // REQUIRES: between LockMap and UnlockMap.
-  const JourneyMap& map() const { return map_; }
+  void LockMap() HOMING_ACQUIRE_SHARED(map_mutex_);
+  void UnlockMap() HOMING_RELEASE_SHARED(map_mutex_) { map_mutex_.UnlockShared(); }
+  // REQUIRES: between LockMap and UnlockMap. MapsLock locks many, which the analysis cannot follow.
+  const JourneyMap& map() const HOMING_UNCHECKED_LOCKS { return map_; }
 
  private:
   // Steps that are committed while the map is being loaded are kept: the store may have read the
   // rows before.
   enum class MapState { kNone, kLoading, kLoaded };
 
-  absl::Status CheckPresent() const;
-  absl::Status CheckWritable() const;
-  void AwaitQuiet(std::unique_lock<std::mutex>* lock);
-  void AbsorbSteps();
+  absl::Status CheckPresent() const HOMING_REQUIRES(mutex_);
+  absl::Status CheckWritable() const HOMING_REQUIRES(mutex_);
+  void AwaitQuiet() HOMING_REQUIRES(mutex_);
+  void AbsorbSteps() HOMING_REQUIRES(map_mutex_);
 
   const std::string name_;
   storage::JourneyStore* const store_;
   FleetIndex* const index_;
 
   // One loads. Locked before map_mutex_.
-  std::mutex load_mutex_;
+  Mutex load_mutex_;
   // Locked before mutex_.
-  std::shared_mutex map_mutex_;
-  JourneyMap map_;
+  SharedMutex map_mutex_;
+  JourneyMap map_ HOMING_GUARDED_BY(map_mutex_);
 
-  mutable std::mutex mutex_;
-  std::condition_variable quiet_;
-  storage::JourneyRecord record_;
-  WriterLease lease_;
-  int appends_under_way_ = 0;
-  bool deleted_ = false;
-  MapState map_state_ = MapState::kNone;
+  mutable Mutex mutex_;
+  ConditionVariable quiet_;
+  storage::JourneyRecord record_ HOMING_GUARDED_BY(mutex_);
+  WriterLease lease_ HOMING_GUARDED_BY(mutex_);
+  int appends_under_way_ HOMING_GUARDED_BY(mutex_) = 0;
+  bool deleted_ HOMING_GUARDED_BY(mutex_) = false;
+  MapState map_state_ HOMING_GUARDED_BY(mutex_) = MapState::kNone;
   // Durable, and not yet in map_ unless it was loaded with them. Empty without a map.
-  std::vector<JourneyStep> unabsorbed_;
-  bool settings_changed_ = false;
+  std::vector<JourneyStep> unabsorbed_ HOMING_GUARDED_BY(mutex_);
+  bool settings_changed_ HOMING_GUARDED_BY(mutex_) = false;
 };
 
 using LiveJourneys = std::vector<std::shared_ptr<LiveJourney>>;

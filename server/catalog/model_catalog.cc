@@ -28,7 +28,7 @@ absl::StatusOr<TrainedModel> ModelCatalog::Train(const std::string& model_id,
   trained.stored.training = options;
   trained.stored.create_time_ns = now_ns;
   if (trained.stored.name == kDefaultModelName) {
-    return FieldError("model_id", "\"default\" is the built-in model; choose another id");
+    return FieldError("model_id", "\"default\" is built in; choose another id");
   }
   HOMING_ASSIGN_OR_RETURN(TrainingResult result, TrainDeviationModel(options));
   trained.stored.model = result.model;

@@ -31,7 +31,7 @@ absl::Status WriterLease::CheckFree(const std::string& writer_id, TimePoint now)
       std::chrono::duration_cast<std::chrono::milliseconds>(kDuration - (now - renewed_)).count();
   return WithReason(absl::AbortedError(absl::StrCat(
                         "writer_id: \"", writer_id,
-                        "\" is not the writer; another one holds the journey, and its lease of ",
+                        "\" must wait: another writer holds the journey, and its lease of ",
                         kDuration.count(), " s lasts ", left, " ms more")),
                     {"WRITER_LEASE_HELD", {{"lease_left_ms", absl::StrCat(left)}}});
 }

@@ -13,10 +13,10 @@
 #include <cstddef>
 #include <functional>
 #include <memory>
-#include <mutex>
 #include <string>
 #include <vector>
 
+#include "homing/base/mutex.h"
 #include "server/access/rpc.h"
 #include "server/metrics/metrics.h"
 
@@ -42,8 +42,8 @@ class LiveGauges final : public prometheus::Collectable {
     std::string help;
     std::function<double()> read;
   };
-  mutable std::mutex mutex_;
-  std::vector<Entry> entries_;
+  mutable Mutex mutex_;
+  std::vector<Entry> entries_ HOMING_GUARDED_BY(mutex_);
 };
 
 // Counters of one family that are wanted with every observation: each is looked up by its labels

@@ -10,11 +10,11 @@
 #include <cstddef>
 #include <list>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <utility>
 #include <vector>
 
+#include "homing/base/mutex.h"
 #include "server/rpc/incoming_call.h"
 #include "server/rpc/service_core.h"
 #include "server/rpc/status_conversion.h"
@@ -44,7 +44,7 @@ class BidiStream : public grpc::ServerBidiReactor<Request, Response>,
     if (!core_->streams.Add(self_)) {
       admitted = DrainingError();
     }
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     if (admitted.ok()) {
       ReadNext();
     } else {
@@ -64,13 +64,17 @@ class BidiStream : public grpc::ServerBidiReactor<Request, Response>,
     if (!watch_.IsIdle()) {
       return;
     }
-    std::unique_lock lock(mutex_);
-    if (writing_) {
-      // It does not take its answers: nothing that is said would arrive.
-      lock.unlock();
+    bool writing = false;
+    bool answered = false;
+    {
+      const MutexLock lock(mutex_);
+      writing = writing_;
+      answered = unanswered_.empty();
+    }
+    if (writing) {
+      // The client does not read its answers: an error would not arrive either.
       watch_.BreakOff();
-    } else if (unanswered_.empty()) {
-      lock.unlock();
+    } else if (answered) {
       End(IdleError());
     }
   }
@@ -80,7 +84,7 @@ class BidiStream : public grpc::ServerBidiReactor<Request, Response>,
     WorkerPool::Task task;
     bool unhurried = false;
     {
-      const std::lock_guard lock(mutex_);
+      const MutexLock lock(mutex_);
       if (!ok) {
         reading_ = false;
         half_closed_ = true;
@@ -105,7 +109,7 @@ class BidiStream : public grpc::ServerBidiReactor<Request, Response>,
     }
     // Nothing is read meanwhile: what came next could overtake it.
     strand_->RunOrPost(std::move(task));
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     reading_ = false;
     // The next is not there yet. Asked for after the answer, it lets gRPC put the window update
     // into the answer's packet; asked for before, there is a packet of its own.
@@ -116,7 +120,7 @@ class BidiStream : public grpc::ServerBidiReactor<Request, Response>,
 
   void OnWriteDone(bool ok) override {
     watch_.Moved();
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     writing_ = false;
     spare_.clear();
     spare_.splice(spare_.end(), writes_, writes_.begin());
@@ -130,7 +134,7 @@ class BidiStream : public grpc::ServerBidiReactor<Request, Response>,
   }
 
   void OnCancel() override {
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     Break();
     FinishIfOver();
   }
@@ -153,26 +157,26 @@ class BidiStream : public grpc::ServerBidiReactor<Request, Response>,
   // is not called if no answer can be given any more.
   template <typename Fill>
   void Answer(Fill fill) {
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     if (end_status_ || finished_) {
       return;
     }
     if (spare_.empty()) spare_.emplace_back();
     writes_.splice(writes_.end(), spare_, spare_.begin());
     fill(&writes_.back());
-    Settle();
+    MarkAnswered();
     WriteNext();
     ReadNext();
   }
   void NoAnswer() {
-    const std::lock_guard lock(mutex_);
-    Settle();
+    const MutexLock lock(mutex_);
+    MarkAnswered();
     ReadNext();
     FinishIfOver();
   }
   // After the answers given so far.
   void End(const absl::Status& status) {
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     if (!end_status_) {
       end_status_ = status;
     }
@@ -198,7 +202,7 @@ class BidiStream : public grpc::ServerBidiReactor<Request, Response>,
 
   void HandleGuarded(const Request& request) {
     {
-      const std::lock_guard lock(mutex_);
+      const MutexLock lock(mutex_);
       if (end_status_ || finished_) {
         return;
       }
@@ -211,8 +215,7 @@ class BidiStream : public grpc::ServerBidiReactor<Request, Response>,
     }
   }
 
-  // The functions below: REQUIRES mutex_.
-  void ReadNext() {
+  void ReadNext() HOMING_REQUIRES(mutex_) {
     const std::size_t most = core_->streams.ShareOf(kReadAheadOfAll, kReadAhead);
     const bool full =
         unanswered_.size() + writes_.size() >= most || unanswered_bytes_ >= kReadAheadBytes;
@@ -225,7 +228,7 @@ class BidiStream : public grpc::ServerBidiReactor<Request, Response>,
     this->StartRead(incoming_.get());
   }
 
-  void WriteNext() {
+  void WriteNext() HOMING_REQUIRES(mutex_) {
     if (!writing_ && !writes_.empty() && !finished_) {
       writing_ = true;
       // Answers that wait leave together: a commit makes many.
@@ -238,7 +241,7 @@ class BidiStream : public grpc::ServerBidiReactor<Request, Response>,
   }
 
   // The oldest request is answered.
-  void Settle() {
+  void MarkAnswered() HOMING_REQUIRES(mutex_) {
     if (!unanswered_.empty()) {
       unanswered_bytes_ -= unanswered_.front();
       unanswered_.erase(unanswered_.begin());
@@ -246,7 +249,7 @@ class BidiStream : public grpc::ServerBidiReactor<Request, Response>,
   }
 
   // The link is gone: nothing more can be written.
-  void Break() {
+  void Break() HOMING_REQUIRES(mutex_) {
     if (!end_status_) {
       end_status_ = absl::CancelledError("the client went away");
     }
@@ -255,7 +258,7 @@ class BidiStream : public grpc::ServerBidiReactor<Request, Response>,
     }
   }
 
-  void FinishIfOver() {
+  void FinishIfOver() HOMING_REQUIRES(mutex_) {
     const bool answered = half_closed_ && unanswered_.empty();
     if (finished_ || writing_ || !writes_.empty() || !(end_status_ || answered)) {
       return;
@@ -270,24 +273,24 @@ class BidiStream : public grpc::ServerBidiReactor<Request, Response>,
   const std::shared_ptr<Strand> strand_;
   std::shared_ptr<BidiStream> self_;
 
-  std::mutex mutex_;
-  std::shared_ptr<Request> incoming_;
+  Mutex mutex_;
+  std::shared_ptr<Request> incoming_ HOMING_GUARDED_BY(mutex_);
   // Lists, and a vector of few: an empty deque takes 600 bytes, and streams are many.
-  std::list<Response> writes_;
+  std::list<Response> writes_ HOMING_GUARDED_BY(mutex_);
   // At most one, empty: it was sent, and its memory is used again.
-  std::list<Response> spare_;
+  std::list<Response> spare_ HOMING_GUARDED_BY(mutex_);
   // Sizes of the requests read and not yet answered, bytes.
-  std::vector<std::size_t> unanswered_;
-  std::size_t unanswered_bytes_ = 0;
-  std::optional<absl::Status> end_status_;
-  std::chrono::steady_clock::time_point read_begin_;
+  std::vector<std::size_t> unanswered_ HOMING_GUARDED_BY(mutex_);
+  std::size_t unanswered_bytes_ HOMING_GUARDED_BY(mutex_) = 0;
+  std::optional<absl::Status> end_status_ HOMING_GUARDED_BY(mutex_);
+  std::chrono::steady_clock::time_point read_begin_ HOMING_GUARDED_BY(mutex_);
   // The last message: for longer than kUnhurried.
-  bool awaited_ = false;
+  bool awaited_ HOMING_GUARDED_BY(mutex_) = false;
   std::atomic<bool> quick_ = false;
-  bool reading_ = false;
-  bool writing_ = false;
-  bool half_closed_ = false;
-  bool finished_ = false;
+  bool reading_ HOMING_GUARDED_BY(mutex_) = false;
+  bool writing_ HOMING_GUARDED_BY(mutex_) = false;
+  bool half_closed_ HOMING_GUARDED_BY(mutex_) = false;
+  bool finished_ HOMING_GUARDED_BY(mutex_) = false;
 };
 
 }  // namespace homing::server

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "absl/strings/str_cat.h"
+#include "homing/base/mutex.h"
 #include "homing/base/status_macros.h"
 #include "server/base/error_reason.h"
 #include "server/rpc/status_conversion.h"
@@ -87,7 +88,7 @@ absl::Status IncomingCall::CheckIdentity() const {
 
 absl::Status IncomingCall::EnterStream() {
   HOMING_RETURN_IF_ERROR(identified_);
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   is_stream_ = true;
   place_.Leave();
   HOMING_ASSIGN_OR_RETURN(place_, core_->places.Enter(robot_));
@@ -100,7 +101,13 @@ absl::Status IncomingCall::Authorize(const std::string& resource) {
   if (core_->access->is_open()) {
     robot_ = RobotNamed(resource);
     rate_key_ = robot_.empty() ? rate_key_ : robot_;
-    return is_stream_ ? EnterStream() : absl::OkStatus();
+    {
+      const MutexLock lock(mutex_);
+      if (!is_stream_) {
+        return absl::OkStatus();
+      }
+    }
+    return EnterStream();
   }
   return absl::OkStatus();
 }
@@ -114,7 +121,7 @@ grpc::Status IncomingCall::Finish(const absl::Status& status) {
   if (!finished_.exchange(true)) {
     const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin_;
     core_->metrics->CallEnded(rpc_, status, elapsed.count());
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     place_.Leave();
   }
   return ToGrpcStatus(status);

@@ -7,10 +7,10 @@
 #include <grpcpp/support/status.h>
 
 #include <atomic>
-#include <mutex>
 #include <string>
 
 #include "absl/status/status.h"
+#include "homing/base/mutex.h"
 #include "server/access/authorization.h"
 #include "server/admission/stream_limiter.h"
 #include "server/rpc/service_core.h"
@@ -57,9 +57,9 @@ class IncomingCall {
   std::string rate_key_;
   std::atomic<bool> finished_ = false;
 
-  std::mutex mutex_;
-  bool is_stream_ = false;
-  StreamLimiter::Place place_;
+  Mutex mutex_;
+  bool is_stream_ HOMING_GUARDED_BY(mutex_) = false;
+  StreamLimiter::Place place_ HOMING_GUARDED_BY(mutex_);
 };
 
 }  // namespace homing::server

@@ -3,11 +3,11 @@
 #define SERVER_RPC_STREAM_REGISTRY_H_
 
 #include <atomic>
-#include <condition_variable>
 #include <cstddef>
 #include <memory>
-#include <mutex>
 #include <set>
+
+#include "homing/base/mutex.h"
 
 namespace homing::server {
 
@@ -38,11 +38,11 @@ class StreamRegistry {
   std::size_t ShareOf(std::size_t all, std::size_t most) const;
 
  private:
-  mutable std::mutex mutex_;
-  std::condition_variable removed_;
-  std::set<std::shared_ptr<OpenStream>> streams_;
+  mutable Mutex mutex_;
+  ConditionVariable removed_;
+  std::set<std::shared_ptr<OpenStream>> streams_ HOMING_GUARDED_BY(mutex_);
   std::atomic<std::size_t> size_ = 0;
-  bool draining_ = false;
+  bool draining_ HOMING_GUARDED_BY(mutex_) = false;
 };
 
 }  // namespace homing::server

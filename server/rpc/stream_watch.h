@@ -5,8 +5,8 @@
 #include <grpcpp/server_context.h>
 
 #include <atomic>
-#include <mutex>
 
+#include "homing/base/mutex.h"
 #include "server/rpc/service_core.h"
 
 namespace homing::server {
@@ -25,27 +25,27 @@ class StreamWatch {
   }
   // The client cancelled the call, its link broke, or BreakOff ended it.
   bool IsCancelled() const {
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     return context_ == nullptr || context_->IsCancelled();
   }
   // The client sees CANCELLED; what is under way ends as when the link breaks.
   void BreakOff() {
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     if (context_ != nullptr) {
       context_->TryCancel();
     }
   }
   // The context is gone: from OnDone.
   void Forget() {
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     context_ = nullptr;
   }
 
  private:
   ServiceCore* const core_;
   // Recursive: gRPC may call back, up to OnDone, before TryCancel returns.
-  mutable std::recursive_mutex mutex_;
-  grpc::ServerContextBase* context_;
+  mutable RecursiveMutex mutex_;
+  grpc::ServerContextBase* context_ HOMING_GUARDED_BY(mutex_);
   std::atomic<TimePoint> moved_;
 };
 

@@ -6,6 +6,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "homing/base/field_error.h"
+#include "homing/base/mutex.h"
 #include "homing/base/range_check.h"
 #include "homing/base/status_macros.h"
 #include "server/base/error_reason.h"
@@ -61,7 +62,7 @@ absl::Status RecordingSession::Start(WriterClaim claim) {
   kind_ = record.input;
   next_ = record.next_sequence;
   due_ = std::max<std::int64_t>(0, next_ - LookBack(kind_));
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   durable_next_ = next_;
   Deliver({true, absl::OkStatus(), {std::nullopt, next_, due_, std::nullopt}});
   return absl::OkStatus();
@@ -147,14 +148,14 @@ absl::Status RecordingSession::Commit(storage::JourneyAppend append, std::int64_
 }
 
 std::int64_t RecordingSession::OpenSlot() {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   slots_.emplace_back();
   return first_slot_ + static_cast<std::int64_t>(slots_.size()) - 1;
 }
 
 void RecordingSession::Complete(std::int64_t slot, const absl::Status& status,
                                 RecordingAnswer answer) {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   if (ended_) {
     return;
   }
@@ -184,12 +185,12 @@ void RecordingSession::Deliver(Slot slot) {
 }
 
 bool RecordingSession::ended() {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   return ended_;
 }
 
 void RecordingSession::End(const absl::Status& status) {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   if (!ended_) {
     ended_ = true;
     listener_.end(status);

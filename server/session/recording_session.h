@@ -7,12 +7,12 @@
 #include <deque>
 #include <functional>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <string>
 
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
+#include "homing/base/mutex.h"
 #include "homing/journey/journey_recorder.h"
 #include "server/catalog/journey_catalog.h"
 #include "storage/commit_queue.h"
@@ -78,7 +78,7 @@ class RecordingSession : public std::enable_shared_from_this<RecordingSession> {
   absl::Status Commit(storage::JourneyAppend append, std::int64_t slot);
   std::int64_t OpenSlot();
   void Complete(std::int64_t slot, const absl::Status& status, RecordingAnswer answer);
-  void Deliver(Slot slot);
+  void Deliver(Slot slot) HOMING_REQUIRES(mutex_);
   void End(const absl::Status& status);
   bool ended();
 
@@ -90,14 +90,14 @@ class RecordingSession : public std::enable_shared_from_this<RecordingSession> {
   std::int64_t due_ = 0;
   std::int64_t next_ = 0;
 
-  std::mutex mutex_;
+  Mutex mutex_;
   const RecordingListener listener_;
   // Answers in the order of the observations; those of repeats wait for the commits before.
-  std::deque<Slot> slots_;
-  std::int64_t first_slot_ = 0;
+  std::deque<Slot> slots_ HOMING_GUARDED_BY(mutex_);
+  std::int64_t first_slot_ HOMING_GUARDED_BY(mutex_) = 0;
   // As of the last answer delivered.
-  std::int64_t durable_next_ = 0;
-  bool ended_ = false;
+  std::int64_t durable_next_ HOMING_GUARDED_BY(mutex_) = 0;
+  bool ended_ HOMING_GUARDED_BY(mutex_) = false;
 };
 
 }  // namespace homing::server

@@ -6,10 +6,10 @@
 #include <grpcpp/server.h>
 
 #include <memory>
-#include <mutex>
 #include <string>
 #include <vector>
 
+#include "homing/base/mutex.h"
 #include "homing/v1/homing_service.grpc.pb.h"
 #include "homing/v1/journey_service.grpc.pb.h"
 
@@ -58,7 +58,7 @@ class FakeJourneyService : public v1::JourneyService::Service, public v1::Homing
   void Answer(RecordStream* stream, std::int64_t sequence);
 
   Faults faults_;
-  mutable std::mutex mutex_;
+  mutable Mutex mutex_;
   int links_ = 0;
   std::vector<v1::Observation> stored_;
   std::vector<std::int64_t> received_;

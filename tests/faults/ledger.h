@@ -4,10 +4,10 @@
 
 #include <cstdint>
 #include <map>
-#include <mutex>
 #include <string>
 
 #include "absl/status/statusor.h"
+#include "homing/base/mutex.h"
 
 namespace homing::faults {
 
@@ -38,7 +38,7 @@ class Ledger {
   std::map<std::string, Acknowledged> entries() const;
 
  private:
-  mutable std::mutex mutex_;
+  mutable Mutex mutex_;
   std::map<std::string, Acknowledged> entries_;
 };
 

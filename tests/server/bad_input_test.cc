@@ -196,13 +196,13 @@ TEST_F(BadInputTest, AnObservationBeforeTheConfigIsInvalid) {
 TEST_F(BadInputTest, AnEmptyRequestAndASecondConfigAreInvalid) {
   Recording empty(journeys_.get(), "");
   empty.Send(v1::RecordJourneyRequest());
-  EXPECT_THAT(empty.AwaitEnd(), GrpcStatusIs(kInvalid, HasSubstr("empty")));
+  EXPECT_THAT(empty.AwaitEnd(), GrpcStatusIs(kInvalid, HasSubstr("must be config or observation")));
   Recording twice(journeys_.get(), kJourney);
   v1::RecordJourneyRequest config;
   config.mutable_config()->set_journey(kJourney);
   config.mutable_config()->set_writer_id(kWriter);
   twice.Send(config);
-  EXPECT_THAT(twice.AwaitEnd(), GrpcStatusIs(kInvalid, HasSubstr("twice")));
+  EXPECT_THAT(twice.AwaitEnd(), GrpcStatusIs(kInvalid, HasSubstr("must come once")));
 }
 
 TEST_F(BadInputTest, AGapSaysWhichNumberIsDueAndARepeatStoresNothing) {

@@ -178,15 +178,15 @@ TEST_P(AppendTest, RefusesWhatTheMapWouldRefuse) {
   };
   refused([](JourneyStep& s) { s.step = 10; }, "step: 10 must be in [11, 11]");
   refused([](JourneyStep& s) { s.step = 12; }, "step: 12 must be in [11, 11]");
-  refused([](JourneyStep& s) { s.fingerprints[3].fingerprint.landmark = 1000; }, "is 1000");
-  refused([](JourneyStep& s) { s.fingerprints[1].fingerprint.landmark = -1; }, "is -1");
+  refused([](JourneyStep& s) { s.fingerprints[3].fingerprint.landmark = 1000; }, "landmark: 1000");
+  refused([](JourneyStep& s) { s.fingerprints[1].fingerprint.landmark = -1; }, "landmark: -1");
   refused([](JourneyStep& s) { s.fingerprints[1] = s.fingerprints[0]; }, "once in a step");
   refused([](JourneyStep& s) { s.fingerprints[0].fingerprint.count = 0; }, "0 must be at least 1");
   refused([](JourneyStep& s) { s.fingerprints[0].fingerprint.x = NAN; }, "finite");
   refused([](JourneyStep& s) { s.fingerprints[0].spread = INFINITY; }, "spread");
   refused([](JourneyStep& s) { std::swap(s.fingerprints[1], s.fingerprints[2]); }, "left");
   refused([](JourneyStep& s) { s.fingerprints[1].side = Side::kRight; }, "side");
-  refused([](JourneyStep& s) { s.fingerprints.push_back(s.fingerprints[3]); }, "over 2");
+  refused([](JourneyStep& s) { s.fingerprints.push_back(s.fingerprints[3]); }, "at most 2");
   AppendAll(*store_, kJourney, {good});
 }
 

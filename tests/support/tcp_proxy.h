@@ -5,10 +5,11 @@
 #include <atomic>
 #include <cstdint>
 #include <memory>
-#include <mutex>
 #include <string>
 #include <thread>
 #include <vector>
+
+#include "homing/base/mutex.h"
 
 namespace homing {
 
@@ -54,7 +55,7 @@ class TcpProxy {
   std::atomic<std::int64_t> bytes_ = 0;
   std::atomic<int> connections_ = 0;
   std::atomic<bool> stopping_ = false;
-  std::mutex mutex_;
+  Mutex mutex_;
   std::vector<std::shared_ptr<Link>> links_;
   std::thread acceptor_;
 };

@@ -39,7 +39,7 @@ TEST(EnumConversion, WordsAgree) {
 }
 
 TEST(EnumConversion, UnspecifiedAndUnknownValuesAreRefusedByName) {
-  const auto refused = StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("a.b is "));
+  const auto refused = StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("a.b: 0 must be "));
   EXPECT_THAT(FromProto(v1::SIDE_UNSPECIFIED, "a.b"), refused);
   EXPECT_THAT(FromProto(v1::MOTION_UNSPECIFIED, "a.b"), refused);
   EXPECT_THAT(FromProto(v1::OUTCOME_UNSPECIFIED, "a.b"), refused);

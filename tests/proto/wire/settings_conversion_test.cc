@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "homing/base/field_error.h"
 #include "tests/support/status_matchers.h"
 
 namespace homing::wire {
@@ -73,6 +74,13 @@ void ExpectSettingsRefused(Change change, const std::string& why) {
   change(message);
   EXPECT_THAT(FromProto(message, "settings", JourneySettings()),
               StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr(why)));
+}
+
+TEST(SettingsConversion, ARefusalNamesItsFieldForPrograms) {
+  v1::JourneySettings message = ToProto(OddSettings());
+  message.mutable_left_camera()->set_yaw_rad(3);
+  const absl::Status status = FromProto(message, "settings", JourneySettings()).status();
+  EXPECT_THAT(FieldOf(status).value_or(""), ::testing::StartsWith("settings.left_camera"));
 }
 
 TEST(SettingsConversion, RefusesWrongSettingsByName) {

@@ -3,11 +3,10 @@
 #include "server/catalog/fleet_index.h"
 
 #include <algorithm>
-#include <condition_variable>
-#include <mutex>
 #include <thread>
 
 #include "absl/strings/str_cat.h"
+#include "homing/base/mutex.h"
 #include "server/session/landmark_query.h"
 #include "storage/forwarding_store.h"
 #include "tests/server/session/session_fixture.h"
@@ -23,23 +22,23 @@ class HeldStore final : public storage::ForwardingStore {
  public:
   using ForwardingStore::ForwardingStore;
   void Release(absl::Status status) {
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     released_ = std::move(status);
-    changed_.notify_all();
+    changed_.NotifyAll();
   }
 
   absl::StatusOr<std::vector<storage::JourneyRecord>> ListJourneys(const std::string& prefix,
                                                                    const std::string& after,
                                                                    int limit) override {
-    std::unique_lock lock(mutex_);
-    changed_.wait(lock, [this] { return released_.has_value(); });
+    MutexLock lock(mutex_);
+    while (!released_) changed_.Wait(mutex_);
     if (!released_->ok()) return *released_;
     return store_->ListJourneys(prefix, after, limit);
   }
 
  private:
-  std::mutex mutex_;
-  std::condition_variable changed_;
+  Mutex mutex_;
+  ConditionVariable changed_;
   std::optional<absl::Status> released_;
 };
 

@@ -4,13 +4,12 @@
 
 #include <gtest/gtest.h>
 
-#include <condition_variable>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "homing/base/mutex.h"
 #include "server/catalog/journey_catalog.h"
 #include "server/session/recording_session.h"
 #include "storage/commit_queue.h"
@@ -28,36 +27,36 @@ class Ear {
  public:
   RecordingListener Listener() {
     return {[heard = heard_](RecordingAnswer answer) {
-              const std::lock_guard lock(heard->mutex);
+              const MutexLock lock(heard->mutex);
               heard->answers.push_back(std::move(answer));
-              heard->changed.notify_all();
+              heard->changed.NotifyAll();
             },
             [heard = heard_](absl::Status status) {
-              const std::lock_guard lock(heard->mutex);
+              const MutexLock lock(heard->mutex);
               heard->end = std::move(status);
-              heard->changed.notify_all();
+              heard->changed.NotifyAll();
             }};
   }
   // The first answer is one of them.
   std::vector<RecordingAnswer> AwaitAnswers(std::size_t count) {
-    std::unique_lock lock(heard_->mutex);
-    heard_->changed.wait(lock, [&] { return heard_->answers.size() >= count || heard_->end; });
+    MutexLock lock(heard_->mutex);
+    while (heard_->answers.size() < count && !heard_->end) heard_->changed.Wait(heard_->mutex);
     return heard_->answers;
   }
   absl::Status AwaitEnd() {
-    std::unique_lock lock(heard_->mutex);
-    heard_->changed.wait(lock, [&] { return heard_->end.has_value(); });
+    MutexLock lock(heard_->mutex);
+    while (!heard_->end) heard_->changed.Wait(heard_->mutex);
     return *heard_->end;
   }
   bool ended() {
-    const std::lock_guard lock(heard_->mutex);
+    const MutexLock lock(heard_->mutex);
     return heard_->end.has_value();
   }
 
  private:
   struct Heard {
-    std::mutex mutex;
-    std::condition_variable changed;
+    Mutex mutex;
+    ConditionVariable changed;
     std::vector<RecordingAnswer> answers;
     std::optional<absl::Status> end;
   };
