@@ -43,8 +43,18 @@ struct CommitQueue::State {
   State(JourneyStore* s, const CommitQueueOptions& o) : store(s), options(o) {}
   void Commit();
   void Tell();
+  void Report(const std::vector<absl::Status>& statuses, std::chrono::duration<double> time) const;
   bool TakeBatch(std::vector<JourneyAppend>& batch, std::vector<Done>& done);
 };
+
+void CommitQueue::State::Report(const std::vector<absl::Status>& statuses,
+                                std::chrono::duration<double> time) const {
+  if (options.on_commit) {
+    const auto stored = std::count_if(statuses.begin(), statuses.end(),
+                                      [](const absl::Status& status) { return status.ok(); });
+    options.on_commit(static_cast<int>(stored), stored > 0, time);
+  }
+}
 
 // Waits for work. False: stopped, and nothing is left.
 bool CommitQueue::State::TakeBatch(std::vector<JourneyAppend>& batch, std::vector<Done>& done) {
@@ -70,7 +80,9 @@ bool CommitQueue::State::TakeBatch(std::vector<JourneyAppend>& batch, std::vecto
 void CommitQueue::State::Commit() {
   Committed batch;
   while (TakeBatch(batch.appends, batch.callbacks)) {
+    const auto begin = std::chrono::steady_clock::now();
     batch.statuses = store->AppendSteps(batch.appends);
+    Report(batch.statuses, std::chrono::steady_clock::now() - begin);
     {
       const MutexLock lock(mutex);
       committed.push_back(std::exchange(batch, {}));

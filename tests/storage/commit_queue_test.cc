@@ -59,8 +59,13 @@ TEST(CommitQueue, CallsBackOnlyAfterTheCommitInOrderOfSubmission) {
   const std::vector<JourneyStep> steps = MakeSteps(100);
   std::vector<std::int64_t> order;
   std::atomic<int> early = 0;
+  int reported = 0;
   {
-    CommitQueue queue(store.get());
+    CommitQueueOptions options;
+    options.on_commit = [&](int stored, bool ok, std::chrono::duration<double> /*time*/) {
+      reported += ok ? stored : -1000;
+    };
+    CommitQueue queue(store.get(), options);
     for (const JourneyStep& step : steps) {
       ASSERT_THAT(
           queue.Submit(
@@ -76,6 +81,7 @@ TEST(CommitQueue, CallsBackOnlyAfterTheCommitInOrderOfSubmission) {
     }
   }
   EXPECT_EQ(early, 0);
+  EXPECT_EQ(reported, 100);
   ASSERT_EQ(order.size(), steps.size());
   for (std::size_t i = 0; i < order.size(); ++i) {
     EXPECT_EQ(order[i], static_cast<std::int64_t>(i));

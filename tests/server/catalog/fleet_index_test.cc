@@ -8,8 +8,8 @@
 #include "absl/strings/str_cat.h"
 #include "homing/base/mutex.h"
 #include "server/session/landmark_query.h"
-#include "storage/forwarding_store.h"
 #include "tests/server/session/session_fixture.h"
+#include "tests/support/forwarding_store.h"
 #include "tests/support/status_matchers.h"
 
 namespace homing::server {

@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "server/session/localization_session.h"
-#include "storage/forwarding_store.h"
 #include "tests/server/session/session_fixture.h"
+#include "tests/support/forwarding_store.h"
 
 namespace homing::server {
 namespace {

@@ -1,7 +1,7 @@
-// A store that hands everything on to another: who derives overrides what it watches or changes.
-// Source: own design.
-#ifndef STORAGE_FORWARDING_STORE_H_
-#define STORAGE_FORWARDING_STORE_H_
+// A store that passes every call to another one. A test derives from it and overrides the calls
+// that it watches or changes.
+#ifndef TESTS_SUPPORT_FORWARDING_STORE_H_
+#define TESTS_SUPPORT_FORWARDING_STORE_H_
 
 #include <istream>
 #include <memory>
@@ -68,4 +68,4 @@ class ForwardingStore : public JourneyStore {
 
 }  // namespace homing::storage
 
-#endif  // STORAGE_FORWARDING_STORE_H_
+#endif  // TESTS_SUPPORT_FORWARDING_STORE_H_
