@@ -2,10 +2,14 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <vector>
 
+#include "server/config/option_table.h"
+#include "server/tls_credentials.h"
 #include "storage/database_url.h"
 
 namespace homing::server {
@@ -37,24 +41,12 @@ double OpenFiles() {
   return count;
 }
 
-void SetLimits(const ServerOptions& options, Metrics* metrics) {
-  const Limits& limits = options.limits;
-  const auto set = [metrics](const char* name, auto value) {
-    metrics->SetLimit(name, static_cast<double>(value));
-  };
-  set("max-message", options.max_message);
-  set("max-pixels", options.max_pixels);
-  set("max-vectors", options.max_vectors);
-  set("max-streams", limits.max_streams);
-  set("max-robot-streams", limits.max_robot_streams);
-  set("max-robot-rate", limits.max_robot_rate);
-  set("max-robot-journeys", limits.max_robot_journeys);
-  set("max-robot-bytes", limits.max_robot_bytes);
-  set("max-database", limits.max_database);
-  set("memory-quota", limits.memory_quota);
-  set("idle-stream-s", limits.idle_stream_s);
-  set("keepalive-s", limits.keepalive_s);
-  set("delete-after-s", limits.delete_after_s);
+double FirstEnd(const CertificateFiles& files) {
+  const std::vector<CertificateExpiry> expiries = ReadExpiries(files);
+  const auto first = std::min_element(
+      expiries.begin(), expiries.end(),
+      [](const CertificateExpiry& a, const CertificateExpiry& b) { return a.end_s < b.end_s; });
+  return first == expiries.end() ? 0 : static_cast<double>(first->end_s);
 }
 
 }  // namespace
@@ -76,7 +68,14 @@ void AddCoreGauges(const ServerOptions& options, ServiceCore* core) {
                     [path] { return SizeOf(path) + SizeOf(path + "-wal"); });
   metrics->AddGauge("process_resident_memory_bytes", "Resident memory", ResidentBytes);
   metrics->AddGauge("process_open_fds", "Open file descriptors", OpenFiles);
-  SetLimits(options, metrics);
+  if (!options.tls_cert.empty()) {
+    metrics->AddGauge("homing_certificate_end_timestamp_seconds",
+                      "When the first certificate or revocation list in use ends, Unix time",
+                      [files = CertificateFilesOf(options)] { return FirstEnd(files); });
+  }
+  ForEachLimit(options, [metrics](const std::string& name, double value) {
+    metrics->SetLimit(name, value);
+  });
 }
 
 }  // namespace homing::server

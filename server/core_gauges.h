@@ -1,4 +1,4 @@
-// What is read off the running server at each scrape. Source: own design.
+// What is read off the running server at each scrape.
 #ifndef SERVER_CORE_GAUGES_H_
 #define SERVER_CORE_GAUGES_H_
 

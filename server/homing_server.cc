@@ -180,8 +180,8 @@ absl::StatusOr<std::unique_ptr<HomingServer>> HomingServer::Start(
   AddCoreGauges(options, state->core.get());
   HOMING_RETURN_IF_ERROR(state->ServeMetrics(options));
   HOMING_RETURN_IF_ERROR(state->Listen(options));
-  state->housekeeping =
-      std::make_unique<Housekeeping>(state->core.get(), std::chrono::seconds(options.reload_s));
+  state->housekeeping = std::make_unique<Housekeeping>(
+      state->core.get(), std::chrono::seconds(options.reload_s), CertificateFilesOf(options));
   return std::unique_ptr<HomingServer>(new HomingServer(std::move(state)));
 }
 

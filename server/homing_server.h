@@ -1,4 +1,4 @@
-// The server: opens the store, listens, serves, drains. Source: own design.
+// The server: opens the store, listens, serves, drains.
 #ifndef SERVER_HOMING_SERVER_H_
 #define SERVER_HOMING_SERVER_H_
 

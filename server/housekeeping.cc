@@ -12,11 +12,16 @@ namespace {
 constexpr std::chrono::seconds kRound{1};
 // Journeys live for days.
 constexpr std::chrono::seconds kDeleteEvery{60};
+constexpr std::chrono::seconds kWarnEvery{86'400};
 
 }  // namespace
 
-Housekeeping::Housekeeping(ServiceCore* core, std::chrono::seconds reload_every)
-    : core_(core), reload_every_(reload_every), thread_([this] { Run(); }) {}
+Housekeeping::Housekeeping(ServiceCore* core, std::chrono::seconds reload_every,
+                           const CertificateFiles& certificates)
+    : core_(core),
+      reload_every_(reload_every),
+      certificates_(certificates),
+      thread_([this] { Run(); }) {}
 
 Housekeeping::~Housekeeping() {
   {
@@ -36,6 +41,9 @@ void Housekeeping::Run() {
     if (round % kDeleteEvery.count() == 0) {
       DeleteExpired();
     }
+    if (round % kWarnEvery.count() == 0) {
+      WarnOfExpiry();
+    }
     const auto next = std::chrono::steady_clock::now() + kRound;
     const MutexLock lock(mutex_);
     while (!stopping_ && stop_.WaitUntil(mutex_, next)) {
@@ -48,7 +56,17 @@ void Housekeeping::Run() {
 
 void Housekeeping::Reload() {
   if (const absl::Status status = core_->access->Reload(); !status.ok()) {
-    spdlog::error("what was read before stays in force: {}", std::string(status.message()));
+    spdlog::error("reload failed, keeping the previous configuration: {}",
+                  std::string(status.message()));
+  }
+}
+
+void Housekeeping::WarnOfExpiry() {
+  for (const CertificateExpiry& expiry : ReadExpiries(certificates_)) {
+    const std::string warning = ExpiryWarning(expiry, WallClockNs() / 1'000'000'000);
+    if (!warning.empty()) {
+      spdlog::warn("{}", warning);
+    }
   }
 }
 

@@ -1,5 +1,5 @@
-// What is done now and then beside the calls: files read again, idle streams closed, journeys past
-// their time deleted. Source: own design.
+// Periodic work beside the calls: reloads files, closes idle streams, deletes expired journeys, and
+// warns of certificates that end soon.
 #ifndef SERVER_HOUSEKEEPING_H_
 #define SERVER_HOUSEKEEPING_H_
 
@@ -7,15 +7,17 @@
 #include <thread>
 
 #include "homing/base/mutex.h"
+#include "server/access/certificate_expiry.h"
 #include "server/rpc/service_core.h"
 
 namespace homing::server {
 
-// One thread. Stops at its end, at the latest after the round under way.
+// One thread; the destructor waits for the current round.
 class Housekeeping {
  public:
   // `core` must outlive it.
-  Housekeeping(ServiceCore* core, std::chrono::seconds reload_every);
+  Housekeeping(ServiceCore* core, std::chrono::seconds reload_every,
+               const CertificateFiles& certificates);
   ~Housekeeping();
   Housekeeping(const Housekeeping&) = delete;
   Housekeeping& operator=(const Housekeeping&) = delete;
@@ -24,9 +26,11 @@ class Housekeeping {
   void Run();
   void Reload();
   void DeleteExpired();
+  void WarnOfExpiry();
 
   ServiceCore* const core_;
   const std::chrono::seconds reload_every_;
+  const CertificateFiles certificates_;
   Mutex mutex_;
   ConditionVariable stop_;
   bool stopping_ HOMING_GUARDED_BY(mutex_) = false;

@@ -10,6 +10,7 @@
 
 #include "server/config/access_commands.h"
 #include "server/config/health_check.h"
+#include "server/config/option_table.h"
 #include "server/config/server_options.h"
 #include "server/config/store_commands.h"
 #include "server/homing_server.h"

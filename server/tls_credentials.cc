@@ -64,4 +64,8 @@ absl::StatusOr<std::shared_ptr<grpc::ServerCredentials>> MakeServerCredentials(
   return tls::TlsServerCredentials(settings);
 }
 
+CertificateFiles CertificateFilesOf(const ServerOptions& options) {
+  return {options.tls_cert, options.tls_client_ca, options.tls_crl_dir};
+}
+
 }  // namespace homing::server

@@ -1,4 +1,4 @@
-// TLS of the server: certificates that are read again while it runs. Source: own design.
+// TLS of the server, with certificates that are reloaded while it runs.
 #ifndef SERVER_TLS_CREDENTIALS_H_
 #define SERVER_TLS_CREDENTIALS_H_
 
@@ -8,6 +8,7 @@
 
 #include "absl/status/statusor.h"
 #include "server/access/access_control.h"
+#include "server/access/certificate_expiry.h"
 #include "server/config/server_options.h"
 
 namespace homing::server {
@@ -17,6 +18,9 @@ namespace homing::server {
 // INVALID_ARGUMENT: a file is bad.
 absl::StatusOr<std::shared_ptr<grpc::ServerCredentials>> MakeServerCredentials(
     const ServerOptions& options, std::shared_ptr<const AccessControl> access);
+
+// The files whose ends Housekeeping and the metrics watch.
+CertificateFiles CertificateFilesOf(const ServerOptions& options);
 
 }  // namespace homing::server
 

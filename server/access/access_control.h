@@ -1,4 +1,4 @@
-// From what came with a call to who calls. Source: own design.
+// From what came with a call to who calls.
 #ifndef SERVER_ACCESS_ACCESS_CONTROL_H_
 #define SERVER_ACCESS_ACCESS_CONTROL_H_
 

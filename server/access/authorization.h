@@ -1,4 +1,4 @@
-// The one place that says whether a caller may do what it asks. Source: own design.
+// The one place that says whether a caller may do what it asks.
 #ifndef SERVER_ACCESS_AUTHORIZATION_H_
 #define SERVER_ACCESS_AUTHORIZATION_H_
 

@@ -1,4 +1,4 @@
-// Who calls, as far as it is proven. Source: own design.
+// Who calls, as far as it is proven.
 #ifndef SERVER_ACCESS_CALLER_H_
 #define SERVER_ACCESS_CALLER_H_
 

@@ -93,6 +93,15 @@ bool Sign(X509* certificate, X509* issuer, EVP_PKEY* issuer_key) {
          X509_sign(certificate, issuer_key, EVP_sha256()) > 0;
 }
 
+absl::Status SignItself(X509* certificate, EVP_PKEY* key) {
+  const bool made =
+      certificate != nullptr &&
+      AddExtension(certificate, certificate, NID_basic_constraints, "critical,CA:TRUE") &&
+      AddExtension(certificate, certificate, NID_key_usage, "critical,keyCertSign,cRLSign") &&
+      Sign(certificate, certificate, key);
+  return made ? absl::OkStatus() : Failed("a certificate");
+}
+
 bool AddRevoked(X509_CRL* list, const ASN1_INTEGER* serial, const ASN1_TIME* now) {
   X509_REVOKED* entry = X509_REVOKED_new();
   return X509_REVOKED_set_serialNumber(entry, const_cast<ASN1_INTEGER*>(serial)) == 1 &&
@@ -127,13 +136,21 @@ absl::StatusOr<CertificateAuthority> CertificateAuthority::Make(const std::strin
   request.common_name = common_name;
   request.ends_in = lifetime;
   OpensslPtr<X509> certificate = Blank(request, key.get());
-  X509* self = certificate.get();
-  if (!certificate || !AddExtension(self, self, NID_basic_constraints, "critical,CA:TRUE") ||
-      !AddExtension(self, self, NID_key_usage, "critical,keyCertSign,cRLSign") ||
-      !Sign(self, self, key.get())) {
+  HOMING_RETURN_IF_ERROR(SignItself(certificate.get(), key.get()));
+  return CertificateAuthority(std::move(key), std::move(certificate));
+}
+
+absl::Status CertificateAuthority::Renew(std::chrono::seconds lifetime) {
+  CertificateRequest request;
+  request.ends_in = lifetime;
+  OpensslPtr<X509> renewed = Blank(request, key_.get());
+  if (!renewed ||
+      X509_set_subject_name(renewed.get(), X509_get_subject_name(certificate_.get())) != 1) {
     return Failed("a certificate");
   }
-  return CertificateAuthority(std::move(key), std::move(certificate));
+  HOMING_RETURN_IF_ERROR(SignItself(renewed.get(), key_.get()));
+  certificate_ = std::move(renewed);
+  return absl::OkStatus();
 }
 
 absl::StatusOr<CertificateAuthority> CertificateAuthority::FromPem(const KeyAndCertificate& pem) {

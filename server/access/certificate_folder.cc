@@ -23,18 +23,22 @@ std::string ReadOrNothing(const fs::path& path) { return ReadFile(path.string())
 // A folder in the making.
 class Folder {
  public:
-  Folder(const fs::path& root, int days) : root_(root), lifetime_(std::chrono::hours(24 * days)) {}
+  explicit Folder(const CertificateOrder& order)
+      : root_(order.folder),
+        lifetime_(std::chrono::hours(24 * order.days)),
+        authority_lifetime_(std::chrono::hours(24 * order.ca_days)) {}
 
-  absl::Status OpenAuthority() {
+  absl::Status OpenAuthority(bool renew) {
     const KeyAndCertificate pem = {ReadOrNothing(root_ / "ca.key"),
                                    ReadOrNothing(root_ / "ca.pem")};
     if (!pem.certificate.empty()) {
       HOMING_ASSIGN_OR_RETURN(CertificateAuthority known, CertificateAuthority::FromPem(pem));
       authority_.emplace(std::move(known));
-      return absl::OkStatus();
+      return renew ? RenewAuthority() : absl::OkStatus();
     }
-    HOMING_ASSIGN_OR_RETURN(CertificateAuthority made,
-                            CertificateAuthority::Make("Homing test authority", lifetime_));
+    HOMING_ASSIGN_OR_RETURN(
+        CertificateAuthority made,
+        CertificateAuthority::Make("Homing test authority", authority_lifetime_));
     authority_.emplace(std::move(made));
     HOMING_ASSIGN_OR_RETURN(const KeyAndCertificate fresh, authority_->pem());
     return Write("ca", fresh);
@@ -69,14 +73,20 @@ class Folder {
       }
     }
     const fs::path path = root_ / "crl" / "homing.pem";
-    HOMING_ASSIGN_OR_RETURN(const std::string list,
-                            authority_->Revoke(ReadOrNothing(path), certificates, lifetime_));
+    HOMING_ASSIGN_OR_RETURN(
+        const std::string list,
+        authority_->Revoke(ReadOrNothing(path), certificates, authority_lifetime_));
     return WriteFile(path, list);
   }
 
   const std::vector<std::string>& written() const { return written_; }
 
  private:
+  absl::Status RenewAuthority() {
+    HOMING_RETURN_IF_ERROR(authority_->Renew(authority_lifetime_));
+    HOMING_ASSIGN_OR_RETURN(const KeyAndCertificate renewed, authority_->pem());
+    return WriteFile(root_ / "ca.pem", renewed.certificate);
+  }
   absl::Status Make(const std::string& name, CertificateRequest request) {
     request.ends_in = lifetime_;
     HOMING_ASSIGN_OR_RETURN(const KeyAndCertificate made, authority_->Issue(request));
@@ -100,6 +110,7 @@ class Folder {
 
   const fs::path root_;
   const std::chrono::seconds lifetime_;
+  const std::chrono::seconds authority_lifetime_;
   std::optional<CertificateAuthority> authority_;
   std::vector<std::string> written_;
 };
@@ -107,9 +118,10 @@ class Folder {
 }  // namespace
 
 absl::StatusOr<std::vector<std::string>> MakeCertificates(const CertificateOrder& order) {
-  HOMING_RETURN_IF_ERROR(CheckRange("days", order.days, 1, 36'500));
-  Folder folder(order.folder, order.days);
-  HOMING_RETURN_IF_ERROR(folder.OpenAuthority());
+  HOMING_RETURN_IF_ERROR(CheckRange("days", order.days, 1, 36'500, "days"));
+  HOMING_RETURN_IF_ERROR(CheckRange("ca-days", order.ca_days, 1, 36'500, "days"));
+  Folder folder(order);
+  HOMING_RETURN_IF_ERROR(folder.OpenAuthority(order.renew_ca));
   // First, so that a certificate made anew is not the one revoked.
   HOMING_RETURN_IF_ERROR(folder.Revoke(order.revoked));
   HOMING_RETURN_IF_ERROR(folder.MakeServer(order.hosts));

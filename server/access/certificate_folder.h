@@ -1,4 +1,4 @@
-// What `homing-server certs` keeps in its folder. Source: own design.
+// What `homing-server certs` keeps in its folder.
 #ifndef SERVER_ACCESS_CERTIFICATE_FOLDER_H_
 #define SERVER_ACCESS_CERTIFICATE_FOLDER_H_
 
@@ -19,8 +19,13 @@ struct CertificateOrder {
   std::vector<std::string> hosts;
   // Identities ("robots/r1") whose certificate in the folder is good no more.
   std::vector<std::string> revoked;
-  // Of all that is made. [1, 36500].
+  // How long the certificates of the server, robots and operators are valid. [1, 36500].
   int days = 365;
+  // How long the authority's own certificate and the revocation list are valid. The list is made
+  // anew by each run, and must last until the next one. [1, 36500].
+  int ca_days = 3650;
+  // Make a new certificate for the authority's key. Certificates that it signed stay valid.
+  bool renew_ca = false;
 };
 
 // ca.pem, ca.key; server.pem, server.key (made anew when hosts are given); robots/ID.pem, .key and

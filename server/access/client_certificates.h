@@ -1,5 +1,5 @@
 // Whether a client's certificate is good now: of our CA, within its dates, not revoked.
-// Source: own design; RFC 5280 by OpenSSL.
+// RFC 5280 by OpenSSL.
 #ifndef SERVER_ACCESS_CLIENT_CERTIFICATES_H_
 #define SERVER_ACCESS_CLIENT_CERTIFICATES_H_
 

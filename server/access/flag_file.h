@@ -1,4 +1,4 @@
-// The files that flags name. Source: own design.
+// The files that flags name.
 #ifndef SERVER_ACCESS_FLAG_FILE_H_
 #define SERVER_ACCESS_FLAG_FILE_H_
 

@@ -1,4 +1,4 @@
-// Names of those who call: "robots/{robot}" and "operators/{operator}". Source: own design.
+// Names of those who call: "robots/{robot}" and "operators/{operator}".
 #ifndef SERVER_ACCESS_IDENTITY_H_
 #define SERVER_ACCESS_IDENTITY_H_
 

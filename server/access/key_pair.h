@@ -1,4 +1,4 @@
-// Whether a key and a certificate belong together. Source: own design.
+// Whether a key and a certificate belong together.
 #ifndef SERVER_ACCESS_KEY_PAIR_H_
 #define SERVER_ACCESS_KEY_PAIR_H_
 

@@ -1,4 +1,4 @@
-// OpenSSL's objects as owners. Source: own design.
+// OpenSSL's objects as owners.
 #ifndef SERVER_ACCESS_OPENSSL_HANDLE_H_
 #define SERVER_ACCESS_OPENSSL_HANDLE_H_
 

@@ -1,4 +1,4 @@
-// Files that only their owner may read: keys and tokens. Source: own design.
+// Files that only their owner may read: keys and tokens.
 #ifndef SERVER_ACCESS_PRIVATE_FILE_H_
 #define SERVER_ACCESS_PRIVATE_FILE_H_
 

@@ -1,4 +1,4 @@
-// Who may do what: the whole table. Source: own design.
+// Who may do what: the whole table.
 #ifndef SERVER_ACCESS_ROLE_H_
 #define SERVER_ACCESS_ROLE_H_
 

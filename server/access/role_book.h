@@ -1,4 +1,4 @@
-// Roles given to identities by a file. Source: own design.
+// Roles given to identities by a file.
 #ifndef SERVER_ACCESS_ROLE_BOOK_H_
 #define SERVER_ACCESS_ROLE_BOOK_H_
 

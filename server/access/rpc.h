@@ -1,4 +1,4 @@
-// The methods of the API, for what concerns them all: rights and metrics. Source: own design.
+// The methods of the API, for what concerns them all: rights and metrics.
 #ifndef SERVER_ACCESS_RPC_H_
 #define SERVER_ACCESS_RPC_H_
 

@@ -1,5 +1,4 @@
 // A TOML file with one table of texts: the form of the files of tokens and of roles.
-// Source: own design.
 #ifndef SERVER_ACCESS_TEXT_TABLE_H_
 #define SERVER_ACCESS_TEXT_TABLE_H_
 

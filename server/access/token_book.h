@@ -1,4 +1,4 @@
-// Bearer tokens: kept as hashes, compared in constant time. Source: own design.
+// Bearer tokens: kept as hashes, compared in constant time.
 #ifndef SERVER_ACCESS_TOKEN_BOOK_H_
 #define SERVER_ACCESS_TOKEN_BOOK_H_
 

@@ -1,4 +1,4 @@
-// Journeys and bytes kept of one robot, and how long. Source: own design.
+// Journeys and bytes kept of one robot, and how long.
 #ifndef SERVER_ADMISSION_JOURNEY_QUOTA_H_
 #define SERVER_ADMISSION_JOURNEY_QUOTA_H_
 

@@ -1,11 +1,8 @@
-// How much the server takes, of everyone and of one robot. Source: own design.
+// How much the server takes, of everyone and of one robot.
 #ifndef SERVER_ADMISSION_LIMITS_H_
 #define SERVER_ADMISSION_LIMITS_H_
 
 #include <cstdint>
-#include <string>
-
-#include "absl/status/status.h"
 
 namespace homing::server {
 
@@ -37,9 +34,6 @@ struct Limits {
   // At a robot's quota its oldest finished journeys are deleted, instead of refusing new ones.
   bool delete_oldest = false;
 };
-
-// INVALID_ARGUMENT naming flag, value and limit.
-absl::Status Validate(const Limits& limits);
 
 }  // namespace homing::server
 

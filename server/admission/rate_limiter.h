@@ -1,4 +1,4 @@
-// A token bucket for each robot. Source: own design.
+// A token bucket for each robot.
 #ifndef SERVER_ADMISSION_RATE_LIMITER_H_
 #define SERVER_ADMISSION_RATE_LIMITER_H_
 

@@ -1,4 +1,4 @@
-// Counts open streams, in all and of each robot. Source: own design.
+// Counts open streams, in all and of each robot.
 #ifndef SERVER_ADMISSION_STREAM_LIMITER_H_
 #define SERVER_ADMISSION_STREAM_LIMITER_H_
 

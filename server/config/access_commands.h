@@ -1,4 +1,4 @@
-// `homing-server certs` and `homing-server token`. Source: own design.
+// `homing-server certs` and `homing-server token`.
 #ifndef SERVER_CONFIG_ACCESS_COMMANDS_H_
 #define SERVER_CONFIG_ACCESS_COMMANDS_H_
 

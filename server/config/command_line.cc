@@ -5,50 +5,41 @@
 #include <string>
 #include <vector>
 
-#include "server/config/option_groups.h"
+#include "server/config/option_table.h"
 #include "server/config/server_options.h"
 #include "server/config/store_commands.h"
 
 namespace homing::server {
 namespace {
 
-constexpr char kVersion[] = "0.1.0";
 constexpr char kDefaultHttp[] = "127.0.0.1:8080";
 
-void AddOptions(CLI::App* app, ServerOptions* options) {
-  app->add_option("--listen", options->listen, "Address and port; port 0 picks one")
-      ->envname("HOMING_LISTEN");
-  app->add_option("--database", options->database, "sqlite:PATH")->envname("HOMING_DATABASE");
-  app->add_option("--http", options->http, "Address of GET /metrics; \"off\": none")
-      ->envname("HOMING_HTTP");
-  AddAccessOptions(app, options);
-  AddLimitOptions(app, &options->limits);
-  app->add_option("--max-message", options->max_message, "Largest message, for example 16MiB")
-      ->transform(CLI::AsSizeValue(false))
-      ->envname("HOMING_MAX_MESSAGE");
-  app->add_option("--max-pixels", options->max_pixels, "Largest frame, pixels")
-      ->envname("HOMING_MAX_PIXELS");
-  app->add_option("--max-vectors", options->max_vectors,
-                  "Most flow vectors of one camera at one instant")
-      ->envname("HOMING_MAX_VECTORS");
-  app->add_option("--workers", options->workers, "Threads that compute; 0: one a core")
-      ->envname("HOMING_WORKERS");
-  app->add_option("--drain-ms", options->drain_ms, "Time for streams to end at shutdown, ms")
-      ->envname("HOMING_DRAIN_MS");
-  app->add_option("--map-cache", options->map_cache,
-                  "Memory for maps that no one uses, for example 1GiB; 0: no limit")
-      ->transform(CLI::AsSizeValue(false))
-      ->envname("HOMING_MAP_CACHE");
-  app->add_flag("--all-journeys-index", options->all_journeys_index,
-                "Index all journeys, so that matching against all is as fast as against one")
-      ->envname("HOMING_ALL_JOURNEYS_INDEX");
-  app->add_flag("--insecure", options->insecure, "Listen off loopback without TLS")
-      ->envname("HOMING_INSECURE");
-  app->add_flag("--readonly", options->readonly,
-                "Localise only; the database, which must have been closed well, is not changed")
-      ->envname("HOMING_READONLY");
-  app->add_flag("--no-reflection", options->no_reflection, "Do not describe the API to clients")
-      ->envname("HOMING_NO_REFLECTION");
+CLI::App* AddCertsCommand(CLI::App* app, CertificateOrder* order) {
+  CLI::App* certs = app->add_subcommand(
+      "certs", "Make a certificate authority, the server's certificate and robots'");
+  certs->add_option("--out", order->folder, "Folder; an authority in it is used again")->required();
+  certs->add_option("--robot", order->robots, "Id of a robot; may be repeated");
+  certs->add_option("--operator", order->operators, "Id of an operator; may be repeated");
+  certs->add_option("--host", order->hosts, "Name or address of the server; may be repeated");
+  certs->add_option("--revoke", order->revoked, "robots/ID or operators/ID; may be repeated");
+  certs->add_option("--days", order->days, "Days that certificates are valid")
+      ->capture_default_str();
+  certs
+      ->add_option("--ca-days", order->ca_days,
+                   "Days that the authority and the revocation list are valid")
+      ->capture_default_str();
+  certs->add_flag("--renew-ca", order->renew_ca,
+                  "Give the authority a new certificate; those it signed stay valid");
+  return certs;
+}
+
+CLI::App* AddTokenCommand(CLI::App* app, TokenOrder* order) {
+  CLI::App* token = app->add_subcommand(
+      "token", "Make a token: its hash goes into the file of --tokens, the token into --out");
+  token->fallthrough();
+  token->add_option("identity", order->identity, "robots/ID or operators/ID")->required();
+  token->add_option("--out", order->out, "File for the token, for the robot")->required();
+  return token;
 }
 
 // A value of the file as it would stand on the command line.
@@ -85,7 +76,7 @@ void ApplyFile(const std::string& path, CLI::App* app) {
   }
 }
 
-int TellError(const std::string& message) {
+int ReportError(const std::string& message) {
   std::cerr << "homing-server: " << message << '\n';
   return 2;
 }
@@ -98,13 +89,13 @@ ServerCommand ParseCommandLine(int argc, const char* const* argv) {
   command.options.http = kDefaultHttp;
   CLI::App app("Localisation server for robots: records journeys and recognises the way home.",
                "homing-server");
-  AddOptions(&app, &command.options);
+  AddServerOptions(&app, &command.options);
   std::string config;
   bool check_config = false;
   app.add_option("--config", config, "TOML file; its keys are the names of these flags")
       ->envname("HOMING_CONFIG");
   app.add_flag("--check-config", check_config, "Check options and end");
-  app.set_version_flag("--version", std::string("homing-server ") + kVersion);
+  app.set_version_flag("--version", "homing-server " HOMING_VERSION);
   CLI::App* health = app.add_subcommand("healthcheck", "Exit 0 if a server is serving, else 1");
   health->fallthrough();
   health->add_option("--server", command.health_server, "Address; by default that of --listen");
@@ -122,11 +113,11 @@ ServerCommand ParseCommandLine(int argc, const char* const* argv) {
   } catch (const CLI::ParseError& error) {
     const bool told = error.get_exit_code() == 0;
     command.action = ServerCommand::Action::kExit;
-    command.exit_code = told ? app.exit(error) : TellError(error.what());
+    command.exit_code = told ? app.exit(error) : ReportError(error.what());
     return command;
   } catch (const toml::parse_error& error) {
     command.action = ServerCommand::Action::kExit;
-    command.exit_code = TellError(config + ": " + std::string(error.description()));
+    command.exit_code = ReportError(config + ": " + std::string(error.description()));
     return command;
   }
   command.options.http_optional = app.get_option("--http")->count() == 0;

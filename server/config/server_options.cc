@@ -1,12 +1,8 @@
 #include "server/config/server_options.h"
 
-#include "absl/strings/escaping.h"
-#include "absl/strings/str_cat.h"
 #include "homing/base/field_error.h"
-#include "homing/base/range_check.h"
 #include "homing/base/status_macros.h"
-#include "homing/flow/observation.h"
-#include "server/config/option_groups.h"
+#include "server/config/option_table.h"
 
 namespace homing::server {
 namespace {
@@ -31,16 +27,7 @@ bool IsLoopback(const std::string& address) {
 }  // namespace
 
 absl::Status Validate(const ServerOptions& options) {
-  HOMING_RETURN_IF_ERROR(
-      CheckRange<std::int64_t>("max-message", options.max_message, 65'536, 268'435'456));
-  HOMING_RETURN_IF_ERROR(
-      CheckRange<std::int64_t>("max-pixels", options.max_pixels, 256, 268'435'456));
-  HOMING_RETURN_IF_ERROR(
-      CheckRange("max-vectors", options.max_vectors, 1, static_cast<int>(kMaxFlowVectors)));
-  HOMING_RETURN_IF_ERROR(CheckRange("workers", options.workers, 0, 1024));
-  HOMING_RETURN_IF_ERROR(
-      CheckRange<std::int64_t>("map-cache", options.map_cache, 0, std::int64_t{1} << 50));
-  HOMING_RETURN_IF_ERROR(CheckRange("drain-ms", options.drain_ms, 0, 600'000));
+  HOMING_RETURN_IF_ERROR(CheckRanges(options));
   if (options.tls_cert.empty() != options.tls_key.empty()) {
     return FieldError("tls-cert", "must be given together with tls-key");
   }
@@ -50,8 +37,6 @@ absl::Status Validate(const ServerOptions& options) {
   if (!options.tls_crl_dir.empty() && options.tls_client_ca.empty()) {
     return FieldError("tls-crl-dir", "needs tls-client-ca");
   }
-  HOMING_RETURN_IF_ERROR(CheckRange("reload-s", options.reload_s, 1, 3600));
-  HOMING_RETURN_IF_ERROR(Validate(options.limits));
   if (HasHttp(options) && !options.insecure && !IsLoopback(options.http)) {
     return TextMustBe("http", options.http,
                       "a loopback address, because it has no TLS; or set insecure");
@@ -61,27 +46,6 @@ absl::Status Validate(const ServerOptions& options) {
                       "a loopback address without TLS; set tls-cert and tls-key, or insecure");
   }
   return absl::OkStatus();
-}
-
-std::string ToToml(const ServerOptions& options) {
-  const auto text = [](const char* key, const std::string& value) {
-    return absl::StrCat(key, " = \"", absl::CEscape(value), "\"\n");
-  };
-  const auto number = [](const char* key, std::int64_t value) {
-    return absl::StrCat(key, " = ", value, "\n");
-  };
-  const auto flag = [](const char* key, bool value) {
-    return absl::StrCat(key, " = ", value ? "true" : "false", "\n");
-  };
-  return text("listen", options.listen) + text("database", options.database) +
-         text("http", HasHttp(options) ? options.http : "off") + AccessToToml(options) +
-         LimitsToToml(options.limits) + number("max-message", options.max_message) +
-         number("max-pixels", options.max_pixels) + number("max-vectors", options.max_vectors) +
-         number("workers", options.workers) + number("drain-ms", options.drain_ms) +
-         number("map-cache", options.map_cache) +
-         flag("all-journeys-index", options.all_journeys_index) +
-         flag("insecure", options.insecure) + flag("readonly", options.readonly) +
-         flag("no-reflection", options.no_reflection);
 }
 
 }  // namespace homing::server

@@ -1,5 +1,4 @@
 // Options of homing-server: command line before environment (HOMING_*) before TOML file.
-// Source: own design.
 #ifndef SERVER_CONFIG_SERVER_OPTIONS_H_
 #define SERVER_CONFIG_SERVER_OPTIONS_H_
 
@@ -64,9 +63,6 @@ inline bool HasHttp(const ServerOptions& options) {
 
 // INVALID_ARGUMENT naming field, value and limit; off loopback without TLS is one.
 absl::Status Validate(const ServerOptions& options);
-
-// As the TOML file would have it, a line a key.
-std::string ToToml(const ServerOptions& options);
 
 // A token to be made.
 struct TokenOrder {

@@ -1,4 +1,4 @@
-// The subcommands that work on a database file: doctor and backup. Source: own design.
+// The subcommands that work on a database file: doctor and backup.
 #ifndef SERVER_CONFIG_STORE_COMMANDS_H_
 #define SERVER_CONFIG_STORE_COMMANDS_H_
 

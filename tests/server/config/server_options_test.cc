@@ -4,6 +4,7 @@
 #include <fstream>
 #include <vector>
 
+#include "server/config/option_table.h"
 #include "tests/support/status_matchers.h"
 #include "tests/support/temporary_folder.h"
 
