@@ -1,4 +1,4 @@
-// Exponential waiting times between attempts. Source: own design.
+// Exponential waiting times between attempts.
 #ifndef CLIENT_BACKOFF_H_
 #define CLIENT_BACKOFF_H_
 

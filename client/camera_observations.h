@@ -1,5 +1,5 @@
 // A robot's one or two cameras to numbered observations: the frames themselves, or the flow
-// computed here with the journey's settings. Source: own design; flow: paper II-B.
+// computed here with the journey's settings. Flow: paper II-B.
 #ifndef CLIENT_CAMERA_OBSERVATIONS_H_
 #define CLIENT_CAMERA_OBSERVATIONS_H_
 

@@ -1,4 +1,4 @@
-// A file that comes in chunks. Source: own design.
+// A file that comes in chunks.
 #ifndef CLIENT_CHUNK_FILE_H_
 #define CLIENT_CHUNK_FILE_H_
 

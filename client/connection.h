@@ -1,4 +1,4 @@
-// The channel to one server. Source: own design.
+// The channel to one server.
 #ifndef CLIENT_CONNECTION_H_
 #define CLIENT_CONNECTION_H_
 

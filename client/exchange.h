@@ -1,5 +1,4 @@
-// One attempt of a two-way stream: observations out within a window, answers in. Source: own
-// design.
+// One attempt of a two-way stream: observations out within a window, answers in.
 #ifndef CLIENT_EXCHANGE_H_
 #define CLIENT_EXCHANGE_H_
 

@@ -1,4 +1,4 @@
-// Recognises landmarks and localises on the way home. Source: own design.
+// Recognises landmarks and localises on the way home.
 #ifndef CLIENT_HOMING_CLIENT_H_
 #define CLIENT_HOMING_CLIENT_H_
 

@@ -1,4 +1,4 @@
-// Frames from the image files of a folder or glob. Source: own design.
+// Frames from the image files of a folder or glob.
 #ifndef CLIENT_IMAGE_FOLDER_H_
 #define CLIENT_IMAGE_FOLDER_H_
 

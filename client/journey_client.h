@@ -1,4 +1,4 @@
-// The maps: create, look at, finish, delete, carry. Source: own design.
+// The maps: create, look at, finish, delete, carry.
 #ifndef CLIENT_JOURNEY_CLIENT_H_
 #define CLIENT_JOURNEY_CLIENT_H_
 

@@ -1,4 +1,4 @@
-// Deviation models: train, look at. Source: own design.
+// Deviation models: train, look at.
 #ifndef CLIENT_MODEL_CLIENT_H_
 #define CLIENT_MODEL_CLIENT_H_
 

@@ -1,4 +1,4 @@
-// What a client sends: numbered observations, as messages. Source: own design.
+// What a client sends: numbered observations, as messages.
 #ifndef CLIENT_OBSERVATION_STREAM_H_
 #define CLIENT_OBSERVATION_STREAM_H_
 

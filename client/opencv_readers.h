@@ -1,5 +1,5 @@
 // OpenCV's readers of images and videos. They bring 200 libraries, which take longer to load than
-// most commands to run: a module of its own, loaded when it is first needed. Source: own design.
+// most commands to run: a module of its own, loaded when it is first needed.
 #ifndef CLIENT_OPENCV_READERS_H_
 #define CLIENT_OPENCV_READERS_H_
 

@@ -1,4 +1,4 @@
-// Grey images as PNG files. Source: own design.
+// Grey images as PNG files.
 #ifndef CLIENT_PNG_FILE_H_
 #define CLIENT_PNG_FILE_H_
 

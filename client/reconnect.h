@@ -1,4 +1,4 @@
-// Tries a stream again after a broken link. Source: own design.
+// Tries a stream again after a broken link.
 #ifndef CLIENT_RECONNECT_H_
 #define CLIENT_RECONNECT_H_
 

@@ -1,4 +1,4 @@
-// Records a journey: durable, resumable, over any number of broken links. Source: own design.
+// Records a journey: durable, resumable, over any number of broken links.
 #ifndef CLIENT_RECORDING_CLIENT_H_
 #define CLIENT_RECORDING_CLIENT_H_
 

@@ -1,5 +1,5 @@
 // Observations sent and not yet acknowledged, and a few before them, to send again after a broken
-// link. Source: own design.
+// link.
 #ifndef CLIENT_RESEND_BUFFER_H_
 #define CLIENT_RESEND_BUFFER_H_
 

@@ -1,4 +1,4 @@
-// gRPC's status to absl's, with the server's advice on when to try again. Source: own design.
+// gRPC's status to absl's, with the server's advice on when to try again.
 #ifndef CLIENT_RPC_STATUS_H_
 #define CLIENT_RPC_STATUS_H_
 

@@ -1,4 +1,4 @@
-// Sends a bearer token with every call of a channel. Source: own design.
+// Sends a bearer token with every call of a channel.
 #ifndef CLIENT_TOKEN_INTERCEPTOR_H_
 #define CLIENT_TOKEN_INTERCEPTOR_H_
 

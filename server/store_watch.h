@@ -1,4 +1,4 @@
-// Watches whether the store takes writes, so that health can say so. Source: own design.
+// Watches whether the store takes writes, so that health can say so.
 #ifndef SERVER_STORE_WATCH_H_
 #define SERVER_STORE_WATCH_H_
 

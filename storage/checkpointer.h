@@ -1,6 +1,6 @@
 // Moves what was committed from SQLite's log into the file, beside the writer: a thousand journeys
 // change some thousand pages a second, and to move them takes longer than a robot should wait for
-// its answer. Source: own design; https://sqlite.org/wal.html, 2.1.
+// its answer. See https://sqlite.org/wal.html, 2.1.
 #ifndef STORAGE_CHECKPOINTER_H_
 #define STORAGE_CHECKPOINTER_H_
 

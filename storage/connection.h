@@ -1,5 +1,5 @@
 // One connection to the SQLite file: transactions and prepared statements. Exceptions of SQLiteCpp
-// end here. Source: own design.
+// end here.
 #ifndef STORAGE_CONNECTION_H_
 #define STORAGE_CONNECTION_H_
 

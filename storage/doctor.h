@@ -1,4 +1,4 @@
-// Looks at a database whatever its state, and saves what is whole. Source: own design.
+// Looks at a database whatever its state, and saves what is whole.
 #ifndef STORAGE_DOCTOR_H_
 #define STORAGE_DOCTOR_H_
 

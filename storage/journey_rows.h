@@ -1,5 +1,5 @@
 // Rows of `journeys` and `journey_settings`. All functions are used in the body of a transaction
-// and throw SQLite::Exception, which ends the transaction. Source: own design.
+// and throw SQLite::Exception, which ends the transaction.
 #ifndef STORAGE_JOURNEY_ROWS_H_
 #define STORAGE_JOURNEY_ROWS_H_
 

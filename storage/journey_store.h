@@ -1,4 +1,4 @@
-// Journeys on disk: one interface, SQLite behind it. Source: own design.
+// Journeys on disk: one interface, SQLite behind it.
 #ifndef STORAGE_JOURNEY_STORE_H_
 #define STORAGE_JOURNEY_STORE_H_
 

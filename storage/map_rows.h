@@ -1,5 +1,5 @@
 // Whole maps from and to the rows of `steps`. Used in the body of a
-// transaction; throws SQLite::Exception, which ends the transaction. Source: own design.
+// transaction; throws SQLite::Exception, which ends the transaction.
 #ifndef STORAGE_MAP_ROWS_H_
 #define STORAGE_MAP_ROWS_H_
 

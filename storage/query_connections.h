@@ -1,4 +1,4 @@
-// Read-only connections for queries, which run beside the writer (WAL). Source: own design.
+// Read-only connections for queries, which run beside the writer (WAL).
 #ifndef STORAGE_QUERY_CONNECTIONS_H_
 #define STORAGE_QUERY_CONNECTIONS_H_
 

@@ -1,4 +1,4 @@
-// Tables of the store and their versions (docs/storage-format.md). Source: own design.
+// Tables of the store and their versions (docs/storage-format.md).
 #ifndef STORAGE_SCHEMA_H_
 #define STORAGE_SCHEMA_H_
 

@@ -1,4 +1,4 @@
-// The store on SQLite: one connection writes, others read beside it. Source: own design.
+// The store on SQLite: one connection writes, others read beside it.
 #ifndef STORAGE_SQLITE_JOURNEY_STORE_H_
 #define STORAGE_SQLITE_JOURNEY_STORE_H_
 

@@ -1,4 +1,4 @@
-// The one place where SQLite's codes become a Status. Source: own design.
+// The one place where SQLite's codes become a Status.
 #ifndef STORAGE_SQLITE_STATUS_H_
 #define STORAGE_SQLITE_STATUS_H_
 

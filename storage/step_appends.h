@@ -1,5 +1,5 @@
 // Appending steps to `journeys` and `steps`. Used in the body of a transaction;
-// throws SQLite::Exception, which ends the transaction. Source: own design.
+// throws SQLite::Exception, which ends the transaction.
 #ifndef STORAGE_STEP_APPENDS_H_
 #define STORAGE_STEP_APPENDS_H_
 

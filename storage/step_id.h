@@ -1,5 +1,5 @@
 // The key of a row of `steps`: journey and step in one integer, which keeps a journey's rows
-// together and in order. Source: own design.
+// together and in order.
 #ifndef STORAGE_STEP_ID_H_
 #define STORAGE_STEP_ID_H_
 

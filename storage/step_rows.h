@@ -1,5 +1,5 @@
 // Rows of `steps`: what was seen at one step of a journey, all of it in one row. Used in the body
-// of a transaction; throws SQLite::Exception, which ends the transaction. Source: own design.
+// of a transaction; throws SQLite::Exception, which ends the transaction.
 #ifndef STORAGE_STEP_ROWS_H_
 #define STORAGE_STEP_ROWS_H_
 

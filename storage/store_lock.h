@@ -1,4 +1,4 @@
-// One server a store: what is in memory must be what is on the disk. Source: own design.
+// One server a store: what is in memory must be what is on the disk.
 #ifndef STORAGE_STORE_LOCK_H_
 #define STORAGE_STORE_LOCK_H_
 

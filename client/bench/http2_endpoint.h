@@ -1,4 +1,4 @@
-// A server that calls are made to without gRPC. Source: own design.
+// A server that calls are made to without gRPC.
 #ifndef CLIENT_BENCH_HTTP2_ENDPOINT_H_
 #define CLIENT_BENCH_HTTP2_ENDPOINT_H_
 

@@ -1,4 +1,4 @@
-// One robot of a load: a stream of its own connection, sent to at given times. Source: own design.
+// One robot of a load: a stream of its own connection, sent to at given times.
 #ifndef CLIENT_BENCH_LOAD_ROBOT_H_
 #define CLIENT_BENCH_LOAD_ROBOT_H_
 

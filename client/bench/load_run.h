@@ -1,5 +1,4 @@
-// A load on a server: many robots, each on a connection of its own, at a steady rate. Source: own
-// design.
+// A load on a server: many robots, each on a connection of its own, at a steady rate.
 #ifndef CLIENT_BENCH_LOAD_RUN_H_
 #define CLIENT_BENCH_LOAD_RUN_H_
 

@@ -1,4 +1,4 @@
-// What the robots of a load see. Source: own design.
+// What the robots of a load see.
 #ifndef CLIENT_BENCH_LOAD_SCENE_H_
 #define CLIENT_BENCH_LOAD_SCENE_H_
 

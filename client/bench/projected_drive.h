@@ -12,7 +12,7 @@
 namespace homing::client {
 
 // Both sides of a street: fronts with corners, posts before them, far things behind. All routes
-// draw their fronts from one pool of eight patterns of corners. Source: own design.
+// draw their fronts from one pool of eight patterns of corners.
 class ProjectedWorld {
  public:
   ProjectedWorld(std::uint64_t seed, double length_m);

@@ -1,4 +1,4 @@
-// Answers of `homing localize --json` against the true places of both drives. Source: own design.
+// Answers of `homing localize --json` against the true places of both drives.
 #ifndef CLIENT_COMMAND_EVALUATION_H_
 #define CLIENT_COMMAND_EVALUATION_H_
 

@@ -1,4 +1,4 @@
-// Flags that several commands have. Source: own design.
+// Flags that several commands have.
 #ifndef CLIENT_COMMAND_FLAGS_H_
 #define CLIENT_COMMAND_FLAGS_H_
 

@@ -1,4 +1,4 @@
-// FIRST,SECOND: two consecutive frames of one camera named on the command line. Source: own design.
+// FIRST,SECOND: two consecutive frames of one camera named on the command line.
 #ifndef CLIENT_COMMAND_IMAGE_PAIR_H_
 #define CLIENT_COMMAND_IMAGE_PAIR_H_
 

@@ -1,4 +1,4 @@
-// Answers as the objects that --json prints. Their words and order are fixed. Source: own design.
+// Answers as the objects that --json prints. Their words and order are fixed.
 #ifndef CLIENT_COMMAND_JSON_LINE_H_
 #define CLIENT_COMMAND_JSON_LINE_H_
 

@@ -1,4 +1,4 @@
-// A file that a command writes: whole, or not there. Source: own design.
+// A file that a command writes: whole, or not there.
 #ifndef CLIENT_COMMAND_OUTPUT_FILE_H_
 #define CLIENT_COMMAND_OUTPUT_FILE_H_
 

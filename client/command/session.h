@@ -1,4 +1,4 @@
-// What all commands share: the connection's flags, how to speak, when to stop. Source: own design.
+// What all commands share: the connection's flags, how to speak, when to stop.
 #ifndef CLIENT_COMMAND_SESSION_H_
 #define CLIENT_COMMAND_SESSION_H_
 

@@ -1,4 +1,4 @@
-// Frames from a video file or a camera of this machine. Source: own design.
+// Frames from a video file or a camera of this machine.
 #ifndef CLIENT_OPENCV_VIDEO_SOURCE_H_
 #define CLIENT_OPENCV_VIDEO_SOURCE_H_
 

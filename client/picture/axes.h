@@ -1,4 +1,4 @@
-// The frame of a plot: values to points, ticks, labels, legend. Source: own design.
+// The frame of a plot: values to points, ticks, labels, legend.
 #ifndef CLIENT_PICTURE_AXES_H_
 #define CLIENT_PICTURE_AXES_H_
 

@@ -1,4 +1,4 @@
-// A page to draw on: SVG or PNG by the file's ending. Source: own design; drawing by cairo.
+// A page to draw on: SVG or PNG by the file's ending. Drawing by cairo.
 #ifndef CLIENT_PICTURE_CANVAS_H_
 #define CLIENT_PICTURE_CANVAS_H_
 

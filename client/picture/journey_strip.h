@@ -1,5 +1,5 @@
 // A journey's map as a strip: the landmarks of either side along the steps, with the number of
-// vectors of each fingerprint. Source: own design.
+// vectors of each fingerprint.
 #ifndef CLIENT_PICTURE_JOURNEY_STRIP_H_
 #define CLIENT_PICTURE_JOURNEY_STRIP_H_
 

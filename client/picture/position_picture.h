@@ -1,5 +1,4 @@
 // The way home: where the robot was believed to be and where it was, and how sure the answer was.
-// Source: own design.
 #ifndef CLIENT_PICTURE_POSITION_PICTURE_H_
 #define CLIENT_PICTURE_POSITION_PICTURE_H_
 

@@ -1,4 +1,4 @@
-// A request over a limit of whoever decodes it: never worth a retry. Source: own design.
+// A request over a limit of whoever decodes it: never worth a retry.
 #ifndef HOMING_BASE_LIMIT_ERROR_H_
 #define HOMING_BASE_LIMIT_ERROR_H_
 

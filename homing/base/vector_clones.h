@@ -1,5 +1,5 @@
 // Loops that are compiled once a kind of machine; the fitting one is chosen when the program
-// starts. Source: own design.
+// starts.
 #ifndef HOMING_BASE_VECTOR_CLONES_H_
 #define HOMING_BASE_VECTOR_CLONES_H_
 

@@ -1,4 +1,4 @@
-// The bounds of an image, checked before anything is allocated. Source: own design.
+// The bounds of an image, checked before anything is allocated.
 #ifndef HOMING_IMAGE_DIMENSIONS_H_
 #define HOMING_IMAGE_DIMENSIONS_H_
 

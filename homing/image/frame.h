@@ -1,5 +1,5 @@
 // One image as it came over the wire or from a file, and its bounded decoding to grey.
-// Source: own design; the paper needs grey values only (II-B).
+// The paper needs grey values only (II-B).
 #ifndef HOMING_IMAGE_FRAME_H_
 #define HOMING_IMAGE_FRAME_H_
 

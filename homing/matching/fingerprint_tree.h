@@ -1,5 +1,5 @@
 // Fingerprints of one deviation model and side in space: a tree over mean x, mean y and number of
-// vectors, searched from the greatest P_T that a region can hold downwards. Source: own design; the
+// vectors, searched from the greatest P_T that a region can hold downwards. The
 // tree after Bentley, "Multidimensional binary search trees", 1975, with buckets.
 #ifndef HOMING_MATCHING_FINGERPRINT_TREE_H_
 #define HOMING_MATCHING_FINGERPRINT_TREE_H_

@@ -1,5 +1,5 @@
 // The landmarks of all journeys, found by P_T without looking at all of them (paper III, eqs 13 to
-// 15). Source: own design.
+// 15).
 #ifndef HOMING_MATCHING_LANDMARK_INDEX_H_
 #define HOMING_MATCHING_LANDMARK_INDEX_H_
 

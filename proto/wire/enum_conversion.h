@@ -1,4 +1,4 @@
-// Enumerations and fingerprints between messages and homing types. Source: own design.
+// Enumerations and fingerprints between messages and homing types.
 #ifndef PROTO_WIRE_ENUM_CONVERSION_H_
 #define PROTO_WIRE_ENUM_CONVERSION_H_
 

@@ -1,4 +1,4 @@
-// Observations, frames and flow fields between messages and homing types. Source: own design.
+// Observations, frames and flow fields between messages and homing types.
 #ifndef PROTO_WIRE_OBSERVATION_CONVERSION_H_
 #define PROTO_WIRE_OBSERVATION_CONVERSION_H_
 

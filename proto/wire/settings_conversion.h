@@ -1,4 +1,4 @@
-// Cameras and journey settings between messages and homing types. Source: own design.
+// Cameras and journey settings between messages and homing types.
 #ifndef PROTO_WIRE_SETTINGS_CONVERSION_H_
 #define PROTO_WIRE_SETTINGS_CONVERSION_H_
 

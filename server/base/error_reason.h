@@ -1,4 +1,4 @@
-// A word for programs, carried by a status beside its message. Source: own design.
+// A word for programs, carried by a status beside its message.
 #ifndef SERVER_BASE_ERROR_REASON_H_
 #define SERVER_BASE_ERROR_REASON_H_
 

@@ -1,5 +1,5 @@
 // Names of resources: "robots/{robot}/journeys/{journey}", "deviationModels/{model}"; "-" is the
-// wildcard. Source: own design.
+// wildcard.
 #ifndef SERVER_BASE_RESOURCE_NAME_H_
 #define SERVER_BASE_RESOURCE_NAME_H_
 

@@ -1,5 +1,4 @@
 // A fixed number of threads for all computing; in-order execution within a stream.
-// Source: own design.
 #ifndef SERVER_BASE_WORKER_POOL_H_
 #define SERVER_BASE_WORKER_POOL_H_
 

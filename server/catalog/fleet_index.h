@@ -1,5 +1,4 @@
 // The landmarks of all journeys, kept up to date with the disk, for queries that cover all of them.
-// Source: own design.
 #ifndef SERVER_CATALOG_FLEET_INDEX_H_
 #define SERVER_CATALOG_FLEET_INDEX_H_
 

@@ -1,4 +1,4 @@
-// All journeys: on disk, and in memory once they are used. Source: own design.
+// All journeys: on disk, and in memory once they are used.
 #ifndef SERVER_CATALOG_JOURNEY_CATALOG_H_
 #define SERVER_CATALOG_JOURNEY_CATALOG_H_
 

@@ -1,5 +1,4 @@
 // Which journeys a query is compared with: those whose camera and settings agree with it.
-// Source: own design.
 #ifndef SERVER_CATALOG_JOURNEY_SELECTION_H_
 #define SERVER_CATALOG_JOURNEY_SELECTION_H_
 

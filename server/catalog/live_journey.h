@@ -1,4 +1,4 @@
-// A journey that is in use, shared by its writer and by all who localise on it. Source: own design.
+// A journey that is in use, shared by its writer and by all who localise on it.
 #ifndef SERVER_CATALOG_LIVE_JOURNEY_H_
 #define SERVER_CATALOG_LIVE_JOURNEY_H_
 

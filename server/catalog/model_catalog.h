@@ -1,4 +1,4 @@
-// Deviation models by name: the built-in one and those that were trained. Source: own design.
+// Deviation models by name: the built-in one and those that were trained.
 #ifndef SERVER_CATALOG_MODEL_CATALOG_H_
 #define SERVER_CATALOG_MODEL_CATALOG_H_
 

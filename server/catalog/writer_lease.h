@@ -1,5 +1,4 @@
 // Who may write a journey: one writer at a time, for as long as it is heard of.
-// Source: own design.
 #ifndef SERVER_CATALOG_WRITER_LEASE_H_
 #define SERVER_CATALOG_WRITER_LEASE_H_
 

@@ -1,5 +1,5 @@
 // What the server counts, for Prometheus. Names: gRFC A66 for calls, Prometheus' rules for the
-// rest; no label takes values that a client chooses. Source: own design.
+// rest; no label takes values that a client chooses.
 #ifndef SERVER_METRICS_METRICS_H_
 #define SERVER_METRICS_METRICS_H_
 

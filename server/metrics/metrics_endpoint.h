@@ -1,4 +1,4 @@
-// GET /metrics over HTTP. Source: own design.
+// GET /metrics over HTTP.
 #ifndef SERVER_METRICS_METRICS_ENDPOINT_H_
 #define SERVER_METRICS_METRICS_ENDPOINT_H_
 

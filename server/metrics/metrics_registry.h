@@ -1,4 +1,4 @@
-// The families behind Metrics. Source: own design.
+// The families behind Metrics.
 #ifndef SERVER_METRICS_METRICS_REGISTRY_H_
 #define SERVER_METRICS_METRICS_REGISTRY_H_
 

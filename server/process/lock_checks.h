@@ -1,4 +1,4 @@
-// What Debian's abseil checks at each lock. Source: own design.
+// What Debian's abseil checks at each lock.
 #ifndef SERVER_PROCESS_LOCK_CHECKS_H_
 #define SERVER_PROCESS_LOCK_CHECKS_H_
 

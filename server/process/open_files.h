@@ -1,4 +1,4 @@
-// How many files and connections this process may have open. Source: own design.
+// How many files and connections this process may have open.
 #ifndef SERVER_PROCESS_OPEN_FILES_H_
 #define SERVER_PROCESS_OPEN_FILES_H_
 

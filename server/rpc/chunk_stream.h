@@ -1,4 +1,4 @@
-// A method that answers with a file in chunks. Source: own design.
+// A method that answers with a file in chunks.
 #ifndef SERVER_RPC_CHUNK_STREAM_H_
 #define SERVER_RPC_CHUNK_STREAM_H_
 

@@ -1,5 +1,4 @@
 // What every handler has of its call: who calls, what that caller may, what is counted.
-// Source: own design.
 #ifndef SERVER_RPC_INCOMING_CALL_H_
 #define SERVER_RPC_INCOMING_CALL_H_
 

@@ -1,4 +1,4 @@
-// Pagination: sizes, and opaque tokens that hold where the next page begins. Source: own design.
+// Pagination: sizes, and opaque tokens that hold where the next page begins.
 #ifndef SERVER_RPC_PAGE_H_
 #define SERVER_RPC_PAGE_H_
 

@@ -1,4 +1,4 @@
-// The only place where absl::Status becomes grpc::Status. Source: own design.
+// The only place where absl::Status becomes grpc::Status.
 #ifndef SERVER_RPC_STATUS_CONVERSION_H_
 #define SERVER_RPC_STATUS_CONVERSION_H_
 

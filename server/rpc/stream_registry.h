@@ -1,4 +1,4 @@
-// Streams that are open, so that a draining server can end them. Source: own design.
+// Streams that are open, so that a draining server can end them.
 #ifndef SERVER_RPC_STREAM_REGISTRY_H_
 #define SERVER_RPC_STREAM_REGISTRY_H_
 

@@ -1,4 +1,4 @@
-// When a stream last moved, and how to break it off. Source: own design.
+// When a stream last moved, and how to break it off.
 #ifndef SERVER_RPC_STREAM_WATCH_H_
 #define SERVER_RPC_STREAM_WATCH_H_
 

@@ -1,4 +1,4 @@
-// One unary RPC on the pool: I/O threads never compute. Source: own design.
+// One unary RPC on the pool: I/O threads never compute.
 #ifndef SERVER_RPC_UNARY_CALL_H_
 #define SERVER_RPC_UNARY_CALL_H_
 

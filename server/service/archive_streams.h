@@ -1,5 +1,4 @@
 // JourneyService.ExportJourney and ImportJourney: a map as one file, in chunks.
-// Source: own design.
 #ifndef SERVER_SERVICE_ARCHIVE_STREAMS_H_
 #define SERVER_SERVICE_ARCHIVE_STREAMS_H_
 

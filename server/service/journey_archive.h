@@ -1,5 +1,5 @@
 // The export file of a journey: magic, message homing.v1.JourneyMap, checksum
-// (docs/storage-format.md). Source: own design.
+// (docs/storage-format.md).
 #ifndef SERVER_SERVICE_JOURNEY_ARCHIVE_H_
 #define SERVER_SERVICE_JOURNEY_ARCHIVE_H_
 

@@ -1,5 +1,4 @@
 // JourneyService: each RPC decodes, makes one call of the session layer, encodes.
-// Source: own design.
 #ifndef SERVER_SERVICE_JOURNEY_SERVICE_H_
 #define SERVER_SERVICE_JOURNEY_SERVICE_H_
 

@@ -1,5 +1,5 @@
 // Messages of the services to and from the types of the session layer; what both client and server
-// convert is in proto/wire. Source: own design.
+// convert is in proto/wire.
 #ifndef SERVER_SERVICE_MESSAGE_CONVERSION_H_
 #define SERVER_SERVICE_MESSAGE_CONVERSION_H_
 

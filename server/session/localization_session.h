@@ -1,5 +1,4 @@
 // One robot on its way home: observations to matches and a position, on the journeys it asked for.
-// Source: own design.
 #ifndef SERVER_SESSION_LOCALIZATION_SESSION_H_
 #define SERVER_SESSION_LOCALIZATION_SESSION_H_
 

@@ -1,4 +1,4 @@
-// What the benchmarks measured: one number a repetition, by name. Source: own design.
+// What the benchmarks measured: one number a repetition, by name.
 #ifndef TESTS_BENCHMARK_RESULTS_H_
 #define TESTS_BENCHMARK_RESULTS_H_
 

@@ -1,5 +1,5 @@
 // The bounds that must hold, each judged by a bootstrap interval over its repetitions.
-// Source: own design; the interval after Efron, "Bootstrap methods", 1979.
+// The interval after Efron, "Bootstrap methods", 1979.
 #ifndef TESTS_BENCHMARK_ROWS_H_
 #define TESTS_BENCHMARK_ROWS_H_
 

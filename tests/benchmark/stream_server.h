@@ -1,4 +1,4 @@
-// Servers to stream to: the real one, and one that only echoes. Source: own design.
+// Servers to stream to: the real one, and one that only echoes.
 #ifndef TESTS_BENCHMARK_STREAM_SERVER_H_
 #define TESTS_BENCHMARK_STREAM_SERVER_H_
 
