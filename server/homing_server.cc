@@ -28,7 +28,7 @@
 namespace homing::server {
 namespace {
 
-// Clients may ping as often as this.
+// The shortest interval at which clients may ping.
 constexpr int kMinPingIntervalMs = 5'000;
 
 // The library adds its plugin to every server of a process that links it.
@@ -60,7 +60,7 @@ void Configure(const ServerOptions& options, grpc::ServerBuilder* builder) {
   builder->SetMaxReceiveMessageSize(static_cast<int>(options.max_message));
   // A second server on the same port must fail, not share it silently.
   builder->AddChannelArgument(GRPC_ARG_ALLOW_REUSEPORT, 0);
-  // Robots behind radio links: a dead one is found soon.
+  // Finds dead radio links soon.
   builder->AddChannelArgument(GRPC_ARG_KEEPALIVE_TIME_MS, options.limits.keepalive_s * 1000);
   builder->AddChannelArgument(GRPC_ARG_KEEPALIVE_TIMEOUT_MS, options.limits.keepalive_s * 500);
   builder->AddChannelArgument(GRPC_ARG_HTTP2_MIN_RECV_PING_INTERVAL_WITHOUT_DATA_MS,
@@ -90,14 +90,14 @@ struct HomingServer::State {
   absl::Status Listen(const ServerOptions& options);
   absl::Status ServeMetrics(const ServerOptions& options);
 
-  // Outlived by nothing but the handlers' last steps: reset when drained.
+  // Reset once drained.
   std::unique_ptr<ServiceCore> core;
   JourneyServiceHandler journeys;
   HomingServiceHandler homing;
   DeviationModelServiceHandler models;
   StoreServiceHandler whole;
   std::unique_ptr<grpc::Server> server;
-  // Ends before the server whose health it sets.
+  // Must end before `server`, whose health it sets.
   std::unique_ptr<StoreWatch> watch;
   std::unique_ptr<MetricsEndpoint> metrics;
   std::unique_ptr<Housekeeping> housekeeping;

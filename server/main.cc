@@ -17,8 +17,9 @@
 #include "server/process/lock_checks.h"
 #include "server/process/open_files.h"
 
-// Read by jemalloc. One arena: what one of the few threads allocates another frees. What is free
-// goes back soon: after a burst of a thousand robots it was as much as all that they use.
+// Read by jemalloc. One arena, because one of the few threads often frees what another allocated.
+// Free memory returns to the system soon: after a burst of a thousand robots it was as large as the
+// memory in use.
 extern "C" const char* malloc_conf;
 const char* malloc_conf = "narenas:1,dirty_decay_ms:1000";
 
@@ -35,7 +36,7 @@ int Tell(const absl::Status& status) {
   return 1;
 }
 
-// Blocked in every thread that comes later, so that only Serve sees them.
+// Blocked in this thread and all later ones, so that only Serve receives them.
 sigset_t BlockStopSignals() {
   sigset_t signals;
   sigemptyset(&signals);
@@ -52,7 +53,7 @@ int Serve(const homing::server::ServerOptions& options) {
   if (!server.ok()) {
     return Tell(server.status());
   }
-  // One write: who reads only the first line may close the pipe.
+  // One write: a reader of the first line may close the pipe.
   std::string lines = "listening on " + (*server)->address() + "\n";
   if (!(*server)->metrics_address().empty()) {
     lines += "metrics on http://" + (*server)->metrics_address() + "/metrics\n";

@@ -10,7 +10,7 @@
 namespace homing::server {
 namespace {
 
-// Between two looks at what the last write met, and between two writes that try.
+// Interval between two looks at the last write's result, and between two test writes.
 constexpr std::chrono::milliseconds kLook{200};
 constexpr std::chrono::milliseconds kTry{1000};
 

@@ -1,4 +1,4 @@
-// Watches whether the store takes writes, so that health can say so.
+// Watches whether the store accepts writes, and reports it to the health service.
 #ifndef SERVER_STORE_WATCH_H_
 #define SERVER_STORE_WATCH_H_
 
@@ -10,16 +10,16 @@
 
 namespace homing::server {
 
-// While writes fail, tries one a second: the server comes back by itself when there is room again,
-// though no robot calls a server that is not serving.
+// While writes fail, it tries one each second: robots do not call a server that is not serving, so
+// nothing else would show that writes work again.
 class StoreWatch {
  public:
-  // Called on a thread of the watch when it changes; true: writes work.
+  // Called on the watch's thread after a change; true: writes work.
   using OnChange = std::function<void(bool)>;
 
-  // `store` must outlive the watch. Writes are taken to work at first.
+  // `store` must outlive the watch. The initial state is: writes work.
   StoreWatch(storage::JourneyStore* store, OnChange on_change);
-  // No call comes after it.
+  // No call follows the destructor.
   ~StoreWatch();
 
  private:

@@ -13,9 +13,8 @@
 
 namespace homing::server {
 
-// Plain text without tls_cert. With a client CA, the handshake asks `access` too; a client may then
-// come without a certificate only if tokens are in use.
-// INVALID_ARGUMENT: a file is bad.
+// Plain text without tls_cert. With a client CA, the handshake also checks with `access`; clients
+// without a certificate are accepted only if tokens are in use. INVALID_ARGUMENT: a file is bad.
 absl::StatusOr<std::shared_ptr<grpc::ServerCredentials>> MakeServerCredentials(
     const ServerOptions& options, std::shared_ptr<const AccessControl> access);
 

@@ -10,12 +10,12 @@
 namespace homing::storage {
 namespace {
 
-// Pages of the log when it is due: 48 of the 64 MiB that it may keep. A page that changes again and
-// again is then moved once.
+// Length of the log, in pages, at which it is moved: 48 of the 64 MiB that it may keep. A page that
+// changes often is then moved once.
 constexpr int kDuePages = 12288;
-// After one that did not empty the log (a reader needs it, the disk is full).
+// After an attempt that did not empty the log (a reader needs it, the disk is full).
 constexpr int kPagesToNextTry = 1024;
-// So few are moved while the writer waits: a few milliseconds.
+// So few pages are moved while the writer waits: a few milliseconds.
 constexpr int kFewPages = 512;
 constexpr int kMostRounds = 5;
 
@@ -28,7 +28,7 @@ absl::StatusOr<std::unique_ptr<Checkpointer>> Checkpointer::Start(const std::str
   HOMING_ASSIGN_OR_RETURN(auto connection,
                           Connection::Open(path, Connection::Access::kReadWrite, busy_timeout_ms));
   HOMING_RETURN_IF_ERROR(connection->Run([&] {
-    // The log is on disk before the file changes, and the file before the log begins anew.
+    // The log is durable before the file changes, and the file before the log is reused.
     connection->Execute("PRAGMA synchronous=FULL");
     return absl::OkStatus();
   }));

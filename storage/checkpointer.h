@@ -1,6 +1,6 @@
-// Moves what was committed from SQLite's log into the file, beside the writer: a thousand journeys
-// change some thousand pages a second, and to move them takes longer than a robot should wait for
-// its answer. See https://sqlite.org/wal.html, 2.1.
+// Moves committed pages from SQLite's log into the file, beside the writer. A thousand journeys
+// change some thousand pages a second; moving them takes longer than a robot should wait for its
+// answer. See https://sqlite.org/wal.html, 2.1.
 #ifndef STORAGE_CHECKPOINTER_H_
 #define STORAGE_CHECKPOINTER_H_
 
@@ -14,27 +14,27 @@
 
 namespace homing::storage {
 
-// One thread with a connection of its own. Most is moved while the writer goes on; the rest, a few
-// pages, while it holds the writer back, so that the log begins anew.
+// One thread with its own connection. It moves most pages while the writer continues, and the last
+// few while it blocks the writer, so that the log starts again at its beginning.
 class Checkpointer {
  public:
-  // Of the file at `path`, which `writer` alone writes, with `write_mutex` held; both must outlive
-  // it. Takes the place of the writer's own checkpoints. As Connection::Open.
+  // For the file at `path`. Only `writer` writes it, with `write_mutex` held; both must outlive
+  // this object. Replaces the writer's own checkpoints. Errors of Connection::Open.
   static absl::StatusOr<std::unique_ptr<Checkpointer>> Start(const std::string& path,
                                                              Connection* writer, Mutex* write_mutex,
                                                              int busy_timeout_ms);
-  // Ends what it does.
+  // Waits for the current work.
   ~Checkpointer();
   Checkpointer(const Checkpointer&) = delete;
   Checkpointer& operator=(const Checkpointer&) = delete;
 
  private:
   Checkpointer(std::unique_ptr<Connection> connection, Connection* writer, Mutex* write_mutex);
-  // After each commit.
+  // Called after each commit with the length of the log.
   void NoteLog(int pages);
   void Run();
   void MoveAll();
-  // Pages that are still to be moved when it returns; negative: it could not be done.
+  // Returns the pages that remain to be moved; negative: it failed.
   int Move();
 
   const std::unique_ptr<Connection> connection_;
@@ -44,7 +44,7 @@ class Checkpointer {
   ConditionVariable changed_;
   bool due_ HOMING_GUARDED_BY(mutex_) = false;
   bool stopping_ HOMING_GUARDED_BY(mutex_) = false;
-  // Of the log, when it is next due; the writer's.
+  // Length of the log, in pages, at which it is moved next. The writer's thread uses it.
   int next_at_;
   std::thread thread_;
 };

@@ -56,7 +56,7 @@ void CommitQueue::State::Report(const std::vector<absl::Status>& statuses,
   }
 }
 
-// Waits for work. False: stopped, and nothing is left.
+// Waits for appends. False: stopped, and nothing is left.
 bool CommitQueue::State::TakeBatch(std::vector<JourneyAppend>& batch, std::vector<Done>& done) {
   MutexLock lock(mutex);
   while (!stopping && appends.empty()) changed.Wait(mutex);
@@ -106,7 +106,7 @@ void CommitQueue::State::Tell() {
     lock.Unlock();
     for (std::size_t i = 0; i < batch.callbacks.size(); ++i) {
       batch.callbacks[i](std::move(batch.appends[i]), batch.statuses[i]);
-      // What the callback holds must not outlive its turn.
+      // Release what the callback holds before the next one runs.
       batch.callbacks[i] = nullptr;
     }
     lock.Lock();

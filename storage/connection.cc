@@ -23,7 +23,7 @@ int FlagsOf(Connection::Access access) {
   return SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE;
 }
 
-// As a URI, with what has a meaning there escaped.
+// As a URI, with its special characters escaped.
 std::string ImmutableUri(const std::string& path) {
   std::string uri = path.rfind('/', 0) == 0 ? "file://" : "file:";
   for (const char c : path) {
@@ -34,7 +34,7 @@ std::string ImmutableUri(const std::string& path) {
   return uri + "?immutable=1";
 }
 
-// Runs `body`; what SQLiteCpp throws becomes the status.
+// Runs `body`; exceptions of SQLiteCpp become the status.
 absl::Status Guard(const Connection::Body& body) {
   try {
     return body();
@@ -49,8 +49,8 @@ absl::Status Guard(const Connection::Body& body) {
 
 absl::StatusOr<std::unique_ptr<Connection>> Connection::Open(const std::string& path, Access access,
                                                              int busy_timeout_ms) {
-  // Nobody asks how much memory SQLite has, and to count it takes a lock at each allocation. Before
-  // its first use; later it is refused, and nothing is lost.
+  // SQLite's memory statistics are not used, and take a lock at each allocation. This must run
+  // before the first use; later SQLite refuses it, without harm.
   static const int uncounted = sqlite3_config(SQLITE_CONFIG_MEMSTATUS, 0);
   static_cast<void>(uncounted);
   const int flags = SQLite::OPEN_NOMUTEX | FlagsOf(access);
@@ -85,7 +85,7 @@ absl::Status Connection::Transact(const char* begin, const Body& body) {
 }
 
 void Connection::RollBack() {
-  // After some errors SQLite has rolled back by itself.
+  // SQLite has already rolled back after some errors.
   if (sqlite3_get_autocommit(database_.getHandle()) == 0) database_.tryExec("ROLLBACK");
 }
 

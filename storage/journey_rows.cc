@@ -33,7 +33,7 @@ constexpr char kDelete[] = "DELETE FROM journeys WHERE name = ?";
 constexpr char kSetState[] = "UPDATE journeys SET state = ? WHERE name = ?";
 constexpr char kSetWriter[] = "UPDATE journeys SET writer_id = ? WHERE name = ?";
 
-// Above every name that begins with a prefix: no UTF-8 text holds this byte.
+// Sorts after every name with this prefix: no UTF-8 text holds this byte.
 constexpr char kAfterAll[] = "\xff";
 
 absl::StatusOr<JourneyRow> ReadJourneyRow(Query& query) {

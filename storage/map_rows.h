@@ -14,7 +14,7 @@ namespace homing::storage {
 absl::StatusOr<JourneyMap> ReadMap(Connection& connection, const JourneyRow& journey);
 // As JourneyStore::LoadTail. DATA_LOSS.
 absl::StatusOr<JourneyTail> ReadTail(Connection& connection, const JourneyRow& journey);
-// All rows of a journey that has none yet.
+// Writes all rows of a journey that has none.
 void WriteMap(Connection& connection, std::int64_t journey_id, const JourneyMap& map);
 
 }  // namespace homing::storage

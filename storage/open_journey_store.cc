@@ -1,4 +1,4 @@
-// Opening: URL, file, schema, durability.
+// Opens a store: URL, file, schema, durability.
 #include <algorithm>
 
 #include "absl/strings/str_cat.h"
@@ -14,10 +14,10 @@ namespace homing::storage {
 namespace {
 
 constexpr char kInMemory[] = ":memory:";
-// Readers beside the writer.
+// Connections that read while the writer writes.
 constexpr int kMaxQueryConnections = 4;
 
-// Every commit is on disk when it returns; the log of the last commits does not grow for ever.
+// Makes every commit durable when it returns, and bounds the log.
 absl::Status MakeDurable(Connection& connection, const std::string& path) {
   return connection.Run([&]() -> absl::Status {
     const std::string mode = connection.Text("PRAGMA journal_mode=WAL");
@@ -27,7 +27,7 @@ absl::Status MakeDurable(Connection& connection, const std::string& path) {
     }
     connection.Execute("PRAGMA synchronous=FULL");
     connection.Execute("PRAGMA journal_size_limit=67108864");
-    // KiB: a thousand journeys that grow have some fifteen hundred pages in use.
+    // KiB: a thousand growing journeys use about 1,500 pages.
     connection.Execute("PRAGMA cache_size=-6144");
     return absl::OkStatus();
   });
@@ -43,7 +43,7 @@ absl::Status LimitSize(Connection& connection, std::int64_t max_bytes) {
   });
 }
 
-// A server that was stopped leaves no log, or an empty one.
+// A server that stopped cleanly leaves no log, or an empty one.
 absl::Status CheckClosedWell(const std::string& path) {
   if (!HasLog(path)) return absl::OkStatus();
   return absl::FailedPreconditionError(

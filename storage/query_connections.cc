@@ -7,7 +7,7 @@ namespace homing::storage {
 
 absl::Status QueryConnections::Read(const std::function<absl::Status(Connection&)>& body) {
   HOMING_ASSIGN_OR_RETURN(std::unique_ptr<Connection> taken, Take());
-  // Gives it back when `body` throws, too.
+  // The deleter returns it also if `body` throws.
   const auto give_back = [this](Connection* used) { GiveBack(std::unique_ptr<Connection>(used)); };
   const std::unique_ptr<Connection, decltype(give_back)> connection(taken.release(), give_back);
   return connection->Read([&] { return body(*connection); });

@@ -12,7 +12,7 @@
 
 namespace homing::storage {
 
-// Thread-safe. Connections are opened when needed and kept; who finds all in use waits.
+// Thread-safe. Opens connections on demand and keeps them; a caller waits while all are in use.
 class QueryConnections {
  public:
   QueryConnections(std::string path, Connection::Access access, int busy_timeout_ms,
@@ -22,7 +22,7 @@ class QueryConnections {
         busy_timeout_ms_(busy_timeout_ms),
         unopened_(max_connections) {}
 
-  // Runs `body` in a read transaction of a connection that no one else uses meanwhile.
+  // Runs `body` in a read transaction, with exclusive use of a connection.
   absl::Status Read(const std::function<absl::Status(Connection&)>& body);
 
  private:

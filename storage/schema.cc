@@ -79,7 +79,7 @@ CREATE VIEW journey_fingerprints AS
   JOIN landmarks l ON l.journey_id = j.journey_id AND l.landmark = f.landmark;
 )sql";
 
-// From version 1 to 2: flow profiles. Journeys recorded before have none.
+// From version 1 to 2: flow profiles. Older journeys have none.
 constexpr char kVersion2[] = R"sql(
 -- profile_id = journey_id * 2^27 + step * 4 + side (0 left, 1 right). cells: twelve bytes with a bit
 -- a cell that is not 0, then those cells.
@@ -97,10 +97,10 @@ CREATE TRIGGER journey_profiles_deleted AFTER DELETE ON journeys BEGIN
 END;
 )sql";
 
-// From version 2 to 3: a step is one row, in one page, where it was up to ten rows in three tables
-// (docs/decisions/0036). What landmarks had of their own is the mean of what their steps have. The
-// settings, ten times as long as the rest of a journey's row, which changes with each step, move
-// away from it.
+// From version 2 to 3: a step is one row in one page; it was up to ten rows in three tables
+// (docs/decisions). A landmark's own values become those of each of its steps. The settings move to
+// another table: they are ten times as long as the rest of a journey's row, which changes with each
+// step.
 constexpr char kVersion3[] = R"sql(
 DROP VIEW journey_landmarks;
 DROP VIEW journey_fingerprints;
@@ -190,7 +190,7 @@ CREATE VIEW journey_landmarks AS
   FROM journey_fingerprints GROUP BY journey, landmark;
 )sql";
 
-// kMigrations[v] goes from version v to v + 1. Never changed once released.
+// kMigrations[v] migrates from version v to v + 1. A released migration never changes.
 constexpr std::array<const char*, kSchemaVersion> kMigrations = {kVersion1, kVersion2, kVersion3};
 
 absl::Status CheckOwner(Connection& connection, std::int64_t version) {

@@ -1,4 +1,4 @@
-// The store on SQLite: one connection writes, others read beside it.
+// The store on SQLite: one connection writes while others read.
 #ifndef STORAGE_SQLITE_JOURNEY_STORE_H_
 #define STORAGE_SQLITE_JOURNEY_STORE_H_
 
@@ -20,8 +20,8 @@ namespace homing::storage {
 
 class SqliteJourneyStore final : public JourneyStore {
  public:
-  // `lock` and `queries` are null for a store in memory, which only its one connection sees;
-  // `writer` is null for a read-only one.
+  // `lock` and `queries` are null for a store in memory, which has one connection. `writer` is null
+  // for a read-only store.
   SqliteJourneyStore(std::string path, std::unique_ptr<StoreLock> lock,
                      std::unique_ptr<Connection> writer, std::unique_ptr<QueryConnections> queries)
       : path_(std::move(path)),
@@ -55,12 +55,13 @@ class SqliteJourneyStore final : public JourneyStore {
 
  private:
   using Body = std::function<absl::Status(Connection&)>;
-  // In one transaction: what changes more than appends do, which then read their rows again.
+  // Runs `body` in one transaction and clears the rows that appends keep: for all writes but
+  // appends.
   absl::Status Write(const Body& body);
   absl::Status Transact(const Body& body);
   void NoteHealth(const absl::Status& written, bool changed) HOMING_REQUIRES(write_mutex_);
   absl::Status Read(const Body& body);
-  // What `query` gives in one read transaction.
+  // The result of `query` in one read transaction.
   template <typename Result, typename Query>
   absl::StatusOr<Result> ReadOne(Query query);
 
@@ -75,7 +76,7 @@ class SqliteJourneyStore final : public JourneyStore {
   // Has its own mutex, so that reading it never waits for a write.
   absl::Status write_health_ HOMING_GUARDED_BY(health_mutex_);
   std::unique_ptr<QueryConnections> queries_;
-  // Ends before the writer.
+  // Must end before the writer.
   std::unique_ptr<Checkpointer> checkpointer_;
   // A copy is being made.
   std::atomic<bool> backing_up_ = false;

@@ -27,7 +27,7 @@ constexpr char kUpdate[] =
 // Two a camera (paper III).
 constexpr int kMaxFingerprintsPerSide = 2;
 constexpr double kMaxSpread = 1e9;
-// Journeys kept from one transaction to the next; a few hundred bytes each.
+// Journeys kept between transactions; a few hundred bytes each.
 constexpr std::size_t kMostKept = 4096;
 
 absl::Status CheckValues(const RecordedFingerprint& recorded) {
@@ -47,7 +47,7 @@ absl::Status CheckValues(const RecordedFingerprint& recorded) {
   return absl::OkStatus();
 }
 
-// Left before right, at most two on a side.
+// Checks the order: left before right, at most two on a side.
 absl::Status CheckOrder(const JourneyStep& step) {
   int left = 0;
   int right = 0;
@@ -110,7 +110,7 @@ absl::Status StepAppends::CheckContinues(const JourneyColumns& journey,
   return absl::OkStatus();
 }
 
-// Landmarks must be known with that side, or come next in number; each once.
+// Each landmark appears once, and is known with that side or has the next number.
 absl::Status StepAppends::CheckLandmark(JourneyColumns& journey,
                                         const RecordedFingerprint& recorded,
                                         std::set<std::int32_t>& seen) {
@@ -155,7 +155,8 @@ void StepAppends::AddStep(JourneyColumns& journey, const JourneyAppend& append) 
   }
   journey.step_count = step.step + 1;
   journey.new_fingerprints += static_cast<std::int64_t>(step.fingerprints.size());
-  // An observation without a step has no say: frames and the flow between them then agree.
+  // An observation without a step does not change the times, so that frames and the flow between
+  // them agree.
   if (append.capture_time_ns != 0) {
     journey.last_time_ns = append.capture_time_ns;
     if (journey.first_time_ns == 0) journey.first_time_ns = append.capture_time_ns;

@@ -9,7 +9,7 @@
 
 namespace homing::storage {
 
-// The schema holds it as well.
+// The schema uses it too.
 inline constexpr int kStepBits = 25;
 static_assert(kMostSteps <= std::int64_t{1} << kStepBits);
 

@@ -26,7 +26,7 @@ constexpr char kSelectLandmarksBack[] =
     "SELECT left1_landmark, left2_landmark, right1_landmark, right2_landmark FROM steps"
     " WHERE step_id >= ? AND step_id < ? ORDER BY step_id DESC";
 
-// Of a fingerprint: landmark, x, y, count, spread.
+// Columns of a fingerprint: landmark, x, y, count, spread.
 constexpr int kColumnsOfPlace = 5;
 constexpr int kPlacesOfSide = 2;
 constexpr int kFirstProfile = 1 + 2 * kPlacesOfSide * kColumnsOfPlace;
@@ -36,7 +36,7 @@ Side SideOfPlace(int place) { return Side{place / kPlacesOfSide}; }
 // Its first column in SELECT, from 0.
 int ColumnOfPlace(int place) { return 1 + place * kColumnsOfPlace; }
 
-// -1 for what no step holds.
+// -1: no step holds it.
 std::int32_t SmallInteger(Query& row, int column) {
   const std::int64_t value = row.Integer(column);
   return std::in_range<std::int32_t>(value) ? static_cast<std::int32_t>(value) : -1;
@@ -51,7 +51,7 @@ void InsertStep(Connection& connection, std::int64_t journey_id, const JourneySt
   }
   if (step.fingerprints.empty() && cells[0].empty() && cells[1].empty()) return;
   Query query = connection.Prepare(kInsert);
-  // What is not bound is NULL.
+  // Columns that are not bound are NULL.
   query.ClearValues();
   query.Bind(1, StepId(journey_id, step.step));
   std::array<int, 2> next_place = {0, kPlacesOfSide};

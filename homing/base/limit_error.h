@@ -1,4 +1,4 @@
-// A request over a limit of whoever decodes it: never worth a retry.
+// An error for a request that exceeds a limit: a retry cannot succeed.
 #ifndef HOMING_BASE_LIMIT_ERROR_H_
 #define HOMING_BASE_LIMIT_ERROR_H_
 
@@ -10,7 +10,7 @@
 
 namespace homing {
 
-// Where an error keeps a word for programs.
+// The payload that holds a machine-readable reason.
 inline constexpr char kReasonPayload[] = "homing/reason";
 
 // MustBe(field, value, rule) whose reason is `limit`, for example "PIXELS".

@@ -1,6 +1,6 @@
 // Mutexes, locks and a condition variable that clang's thread-safety analysis can check. They wrap
-// the standard library's, whose own types carry no attributes in libstdc++; ThreadSanitizer sees
-// through them. `.ci/run thread_safety` runs the check.
+// the standard library's types, which have no attributes in libstdc++. ThreadSanitizer understands
+// them. `.ci/run locks` runs the check.
 #ifndef HOMING_BASE_MUTEX_H_
 #define HOMING_BASE_MUTEX_H_
 

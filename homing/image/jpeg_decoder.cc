@@ -46,7 +46,7 @@ absl::StatusOr<cv::Mat> DecodeJpeg(const Frame& frame, const DecodeLimits& limit
   HOMING_RETURN_IF_ERROR(CheckLimits({width, height}, limits));
   HOMING_RETURN_IF_ERROR(CheckDeclared(frame, {width, height}));
   cv::Mat gray(height, width, CV_8UC1);
-  // A warning means pixels that nobody sent (a file that ends early): as bad as an error.
+  // A warning means invented pixels (a file that ends early): as bad as an error.
   constexpr int kFlags = TJFLAG_ACCURATEDCT | TJFLAG_STOPONWARNING | TJFLAG_LIMITSCANS;
   if (tjDecompress2(handle.get(), bytes, length, gray.data, width, static_cast<int>(gray.step[0]),
                     height, TJPF_GRAY, kFlags) != 0) {

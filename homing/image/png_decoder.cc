@@ -14,7 +14,7 @@
 namespace homing {
 namespace {
 
-// Ancillary chunks (text, profiles) may inflate to this many bytes together.
+// Limit on the inflated size of all ancillary chunks (text, profiles), bytes.
 constexpr std::size_t kChunkBytes = 1 << 20;
 
 struct ContextCloser {
@@ -26,7 +26,7 @@ absl::Status PngError(int code) {
   return FieldError("frame.data", absl::StrCat("is no complete PNG image: ", spng_strerror(code)));
 }
 
-// Pixels of `format`, 8 bits a channel, in `type`; then everything up to the end of the file.
+// Decodes to `format`, 8 bits a channel, as `type`; then reads the rest of the file.
 absl::StatusOr<cv::Mat> DecodePixels(spng_ctx* context, const spng_ihdr& header, spng_format format,
                                      int type) {
   cv::Mat pixels(static_cast<int>(header.height), static_cast<int>(header.width), type);
@@ -59,7 +59,7 @@ absl::StatusOr<cv::Mat> DecodePng(const Frame& frame, const DecodeLimits& limits
   const Dimensions dimensions{header.width, header.height};
   HOMING_RETURN_IF_ERROR(CheckLimits(dimensions, limits));
   HOMING_RETURN_IF_ERROR(CheckDeclared(frame, dimensions));
-  // Deep grey, colour, palette and alpha all become RGB8 first; alpha is dropped.
+  // 16-bit grey, colour, palette and alpha become RGB8 first; alpha is dropped.
   if (header.color_type == SPNG_COLOR_TYPE_GRAYSCALE && header.bit_depth <= 8) {
     return DecodePixels(context.get(), header, SPNG_FMT_G8, CV_8UC1);
   }

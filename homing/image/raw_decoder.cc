@@ -19,7 +19,7 @@ absl::StatusOr<cv::Mat> DecodeRaw(const Frame& frame, const DecodeLimits& limits
                   absl::StrCat(expected, " bytes: ", frame.width, " x ", frame.height,
                                gray ? " x 1" : " x 3"));
   }
-  // cv::Mat takes no pointer to const; the view is only read.
+  // cv::Mat has no constructor for const data; the view is only read.
   void* bytes = const_cast<char*>(frame.data.data());
   const cv::Mat view(frame.height, frame.width, gray ? CV_8UC1 : CV_8UC3, bytes);
   if (gray) {

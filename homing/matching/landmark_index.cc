@@ -14,7 +14,7 @@ MeanAndCount Of(float x, float y, std::int32_t count) {
 
 }  // namespace
 
-// Keeps the best so far, in order.
+// Keeps the best matches so far, in order.
 class LandmarkIndex::Finder : public TreeVisitor {
  public:
   Finder(const LandmarkIndex& index, const MatchOptions& options, const Covers& covers,
@@ -49,7 +49,7 @@ class LandmarkIndex::Finder : public TreeVisitor {
   }
 
  private:
-  // A match whose landmark has the index's number: what that stands for is looked up at the end.
+  // A match with the landmark's number in the index; the end of the search translates it.
   struct Found {
     std::uint32_t landmark = 0;
     std::int64_t step = 0;
@@ -77,7 +77,7 @@ class LandmarkIndex::Finder : public TreeVisitor {
     return std::tie(a.step, a.side, of_a.landmark) < std::tie(b.step, b.side, of_b.landmark);
   }
 
-  // False: the landmark is there already, with a step no worse.
+  // False: the landmark was found already, with a step that is not worse.
   bool LetGoOfWorse(const Found& match) {
     if (!distinct_) {
       return true;

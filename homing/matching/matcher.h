@@ -1,5 +1,5 @@
-// Which stored landmarks resemble what is seen: the best P_T over one or more journeys
-// (paper III, eqs 13 to 15).
+// Finds the stored landmarks that are most similar to those seen: the best P_T over one or more
+// journeys (paper III, eqs 13 to 15).
 #ifndef HOMING_MATCHING_MATCHER_H_
 #define HOMING_MATCHING_MATCHER_H_
 
@@ -20,7 +20,7 @@
 
 namespace homing {
 
-// Whether the cameras changed sides of the route. Direction is always estimated.
+// kReturn: the cameras look at exchanged sides of the route. The direction is always estimated.
 enum class Travel { kReturn = 1, kSame = 2 };
 
 // The side of the route that a camera of the robot looks at.
@@ -47,12 +47,12 @@ struct MatchOptions {
 
 absl::Status Validate(const MatchOptions& options);
 
-// Not thread-safe: keeps what it works with from query to query.
+// Not thread-safe: it reuses its memory from query to query.
 class Matcher {
  public:
-  // Distinct landmarks, each with its best step over everything seen on its side; best P_T first,
-  // ties by journey name, step, side, landmark. Each journey is scored with its own deviation
-  // model. A P_T of 0 is no match. REQUIRES: Validate(options).ok().
+  // Distinct landmarks, each with its best step for all landmarks seen on its side; best P_T first,
+  // ties by journey name, step, side, landmark. Each journey uses its own deviation model. A P_T of
+  // 0 is no match. REQUIRES: Validate(options).ok().
   std::vector<Match> Find(std::span<const JourneyRef> journeys, const SeenSides& seen,
                           const MatchOptions& options);
 

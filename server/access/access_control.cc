@@ -20,8 +20,7 @@ absl::Status Unauthenticated(const char* reason, const std::string& message) {
   return WithReason(absl::UnauthenticatedError(message), {reason, {}});
 }
 
-// A file that is being written may be half of what it will be: it is read once nobody has touched
-// it for a second.
+// A file may be read while it is being written. It is read once it was not changed for a second.
 bool IsSettled(const std::string& path) {
   std::error_code error;
   const auto written = std::filesystem::last_write_time(path, error);

@@ -109,7 +109,7 @@ bool AddRevoked(X509_CRL* list, const ASN1_INTEGER* serial, const ASN1_TIME* now
          X509_CRL_add0_revoked(list, entry) == 1;
 }
 
-// The serials of a list that is there already.
+// Copies the serial numbers of an existing list.
 absl::Status AddPrevious(const std::string& pem, X509_CRL* list) {
   const OpensslPtr<X509_CRL> previous(
       PEM_read_bio_X509_CRL(ReadingBio(pem).get(), nullptr, nullptr, nullptr));

@@ -45,8 +45,8 @@ class CertificateAuthority {
   absl::StatusOr<KeyAndCertificate> pem() const;
   // INVALID_ARGUMENT: a name OpenSSL does not take.
   absl::StatusOr<KeyAndCertificate> Issue(const CertificateRequest& request) const;
-  // A revocation list (PEM) good for `lifetime`: those of `previous` (PEM; may be empty) and
-  // `revoked` (PEM certificates). INVALID_ARGUMENT: not PEM.
+  // A revocation list (PEM) that is valid for `lifetime`. It holds the entries of `previous` (PEM;
+  // may be empty) and `revoked` (PEM certificates). INVALID_ARGUMENT: not PEM.
   absl::StatusOr<std::string> Revoke(const std::string& previous,
                                      const std::vector<std::string>& revoked,
                                      std::chrono::seconds lifetime) const;

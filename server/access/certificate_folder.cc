@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 
 std::string ReadOrNothing(const fs::path& path) { return ReadFile(path.string()).value_or(""); }
 
-// A folder in the making.
+// The folder of certificates while a command changes it.
 class Folder {
  public:
   explicit Folder(const CertificateOrder& order)
@@ -101,7 +101,7 @@ class Folder {
     fs::create_directories(path.parent_path(), error);
     HOMING_RETURN_IF_ERROR(WritePrivateFile(path.string(), text));
     if (path.extension() == ".pem") {
-      // Certificates and lists are no secret, and the server may be another user's.
+      // Certificates and lists are not secret, and the server may run as another user.
       fs::permissions(path, fs::perms(0644), error);
     }
     written_.push_back(path.string());
@@ -122,7 +122,7 @@ absl::StatusOr<std::vector<std::string>> MakeCertificates(const CertificateOrder
   HOMING_RETURN_IF_ERROR(CheckRange("ca-days", order.ca_days, 1, 36'500, "days"));
   Folder folder(order);
   HOMING_RETURN_IF_ERROR(folder.OpenAuthority(order.renew_ca));
-  // First, so that a certificate made anew is not the one revoked.
+  // Revoke first: a certificate that this command makes must not be revoked by it.
   HOMING_RETURN_IF_ERROR(folder.Revoke(order.revoked));
   HOMING_RETURN_IF_ERROR(folder.MakeServer(order.hosts));
   for (const std::string& robot : order.robots) {

@@ -16,7 +16,7 @@
 namespace homing::server {
 namespace {
 
-// Chains remembered between two reloads; more are checked anew each time.
+// Chains whose result is cached between two reloads; others are verified each time.
 constexpr std::size_t kMostKnown = 10'000;
 
 absl::StatusOr<OpensslPtr<STACK_OF(X509_INFO)>> ReadPem(const std::string& flag,

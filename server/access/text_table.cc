@@ -9,7 +9,7 @@
 namespace homing::server {
 namespace {
 
-// The parser's description may quote a line of the file: only the place is told.
+// The parser's description may quote a secret from the file: only the line number is reported.
 absl::StatusOr<toml::table> Parse(const std::string& flag, const std::string& path,
                                   const std::string& text) {
   try {

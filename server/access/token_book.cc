@@ -64,7 +64,7 @@ absl::StatusOr<TokenBook> TokenBook::Read(const std::string& path) {
   for (const auto& [key, identity] : table) {
     const auto hash = HashOfText(key);
     if (!hash) {
-      // Not repeated: it may be a token put there by mistake.
+      // The key is not repeated: it may be a token that was put there by mistake.
       return FlagFileError(
           "tokens", path,
           absl::StrCat("gives ", identity.substr(0, 100),
@@ -95,7 +95,7 @@ absl::Status AddToken(const std::string& path, const std::string& identity, cons
   if (!std::filesystem::exists(path, error)) {
     line = "[tokens]\n" + line;
   } else {
-    // A file that would not be read any more is not touched.
+    // Do not write to a file that could not be read afterwards.
     HOMING_RETURN_IF_ERROR(TokenBook::Read(path).status());
   }
   return AppendPrivateFile(path, line);

@@ -13,11 +13,11 @@ namespace {
 constexpr std::int64_t kFingerprintBytes = 16;
 constexpr std::int64_t kStepBytes = 216;
 constexpr std::int64_t kSecondNs = 1'000'000'000;
-// Room comes when somebody deletes: no use in asking often.
+// Space appears only when somebody deletes: frequent retries do not help.
 constexpr char kRetryMs[] = "10000";
 constexpr int kPage = 1000;
 
-// All journeys of `robot` (kWildcard: of all), page by page.
+// Visits all journeys of `robot` (kWildcard: of all robots), page by page.
 absl::Status ForEach(JourneyCatalog* catalog, const std::string& robot,
                      const std::function<void(const storage::JourneyRecord&)>& visit) {
   std::string after;

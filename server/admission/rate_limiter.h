@@ -11,13 +11,13 @@
 
 namespace homing::server {
 
-// Thread-safe. Buckets that are full again are forgotten.
+// Thread-safe. Full buckets are dropped.
 class RateLimiter {
  public:
-  // `per_second` tokens come a second, up to twice as many; 0: no limit.
+  // Each second adds `per_second` tokens, up to twice as many in total; 0: no limit.
   explicit RateLimiter(int per_second) : rate_(per_second) {}
 
-  // Takes one token. RESOURCE_EXHAUSTED saying when there is one again.
+  // Takes one token. RESOURCE_EXHAUSTED with the time until the next one.
   absl::Status Take(const std::string& key, TimePoint now);
 
  private:

@@ -1,4 +1,4 @@
-// Counts open streams, in all and of each robot.
+// Counts open streams, in total and of each robot.
 #ifndef SERVER_ADMISSION_STREAM_LIMITER_H_
 #define SERVER_ADMISSION_STREAM_LIMITER_H_
 
@@ -15,7 +15,7 @@ namespace homing::server {
 // Thread-safe.
 class StreamLimiter {
  public:
-  // A stream's place; gives it back at its end.
+  // Holds the place of one open stream; the destructor frees it.
   class Place {
    public:
     Place() = default;
@@ -33,7 +33,7 @@ class StreamLimiter {
   explicit StreamLimiter(const Limits& limits)
       : max_all_(limits.max_streams), max_robot_(limits.max_robot_streams) {}
 
-  // `robot` empty: counts among all only. RESOURCE_EXHAUSTED naming the limit.
+  // `robot` empty: the stream counts in the total only. RESOURCE_EXHAUSTED naming the limit.
   absl::StatusOr<Place> Enter(const std::string& robot);
   int open() const;
 

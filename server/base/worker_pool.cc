@@ -9,7 +9,7 @@
 namespace homing::server {
 namespace {
 
-// A stream with more of them lets others have their turn.
+// After so many tasks of one stream, other streams have their turn.
 constexpr int kTasksATurn = 8;
 
 void RunOpenCvSingleThreaded() {

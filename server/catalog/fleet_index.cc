@@ -12,7 +12,7 @@ namespace homing::server {
 namespace {
 
 constexpr int kRecordPage = 1000;
-// Of what was deleted, taken out at each change: well under a millisecond.
+// Buckets swept at each change: well under a millisecond.
 constexpr std::uint32_t kSweptAtOnce = 64;
 
 }  // namespace
@@ -58,7 +58,7 @@ absl::Status FleetIndex::Load(const storage::JourneyRecord& record) {
   }
   const absl::StatusOr<JourneyMap> map = store_->LoadMap(record.name);
   if (absl::IsNotFound(map.status())) {
-    // Deleted since it was listed.
+    // The journey was deleted after it was listed.
     return absl::OkStatus();
   }
   HOMING_RETURN_IF_ERROR(map.status());
@@ -115,7 +115,7 @@ void FleetIndex::Apply(const Change& change) {
   }
   Entry& entry = entries_[static_cast<std::size_t>(JourneyOf(change.name, change.settings))];
   const int journey = numbers_.at(change.name);
-  // What was built from the disk may hold it already.
+  // The index that was built from the store may already hold it.
   if (change.step && change.step->step >= entry.next_step) {
     index_.Append(journey, *change.step);
     entry.next_step = change.step->step + 1;
@@ -125,7 +125,7 @@ void FleetIndex::Apply(const Change& change) {
   }
 }
 
-// Known, or new; its settings are those given.
+// The number of a known or new journey. Updates its settings.
 int FleetIndex::JourneyOf(const std::string& name, const JourneySettings& settings) {
   const std::size_t same = SettingsOf(settings);
   const auto found = numbers_.find(name);
@@ -202,7 +202,7 @@ absl::StatusOr<SettingsSelection> FleetIndex::SelectLocked(const QueryRobot& rob
   for (const Settings& settings : settings_) {
     uses.push_back({&settings.settings, settings.journeys, ""});
   }
-  // Only a tie asks for the names.
+  // The names are needed to break a tie only.
   HOMING_ASSIGN_OR_RETURN(SettingsSelection selection, SelectSettings(uses, robot));
   if (selection.is_tie) {
     for (const auto& [name, journey] : numbers_) {

@@ -1,4 +1,4 @@
-// The landmarks of all journeys, kept up to date with the disk, for queries that cover all of them.
+// An index of the landmarks of all journeys, for queries over all of them.
 #ifndef SERVER_CATALOG_FLEET_INDEX_H_
 #define SERVER_CATALOG_FLEET_INDEX_H_
 
@@ -25,14 +25,14 @@ namespace homing::server {
 // visible to the next query.
 class FleetIndex {
  public:
-  // Begins to build. `store` must outlive the index.
+  // Starts building. `store` must outlive the index.
   explicit FleetIndex(storage::JourneyStore* store);
-  // Gives up building.
+  // Stops building.
   ~FleetIndex();
   FleetIndex(const FleetIndex&) = delete;
   FleetIndex& operator=(const FleetIndex&) = delete;
 
-  // -- What became durable, each once and in the order of one journey.
+  // -- Committed changes. Call each once, and those of one journey in their order.
 
   void Created(const std::string& name, const JourneySettings& settings);
   void Appended(const std::string& name, const JourneySettings& settings, const JourneyStep& step);
@@ -41,18 +41,19 @@ class FleetIndex {
 
   // -- Queries.
 
-  // UNAVAILABLE: it is not built yet, or could not be.
+  // UNAVAILABLE: the index is not built yet, or building failed.
   absl::Status CheckReady() const;
-  // Of all journeys, those whose camera and settings agree with the robot's, as SelectJourneys
-  // chooses. UNAVAILABLE; NOT_FOUND: there is no journey; FAILED_PRECONDITION: none agrees.
+  // The options for the journeys whose camera and settings match the robot's, selected as by
+  // SelectJourneys. UNAVAILABLE; NOT_FOUND: there is no journey; FAILED_PRECONDITION: none matches.
   absl::StatusOr<LocalizerOptions> Select(const QueryRobot& robot);
-  // As homing::Matcher::Find over the journeys that Select chooses. Match::journey is of no use.
+  // As homing::Matcher::Find over the journeys that Select selects. Match::journey has no meaning
+  // here.
   absl::StatusOr<std::vector<std::pair<std::string, Match>>> Find(const QueryRobot& robot,
                                                                   const SeenSides& seen,
                                                                   const MatchOptions& options);
 
  private:
-  // One of them is set, or neither: the journey is there.
+  // A created journey sets neither `step` nor `map`; a change sets at most one of them.
   struct Change {
     std::string name;
     JourneySettings settings;
@@ -60,13 +61,13 @@ class FleetIndex {
     std::shared_ptr<const JourneyMap> map;
     bool deleted = false;
   };
-  // By the number of the journey in the index.
+  // Indexed by the journey's number in the index.
   struct Entry {
     std::size_t settings = 0;
-    // First step not yet in the index.
+    // The first step that is not in the index.
     std::int64_t next_step = 0;
   };
-  // Journeys of the same settings.
+  // How many journeys have these settings.
   struct Settings {
     JourneySettings settings;
     std::int64_t journeys = 0;
@@ -101,7 +102,7 @@ class FleetIndex {
   std::atomic<bool> ready_ = false;
   std::atomic<bool> stopping_ = false;
 
-  // Locked before queue_mutex_.
+  // Lock order: data_mutex_ before queue_mutex_.
   SharedMutex data_mutex_;
   LandmarkIndex index_ HOMING_GUARDED_BY(data_mutex_);
   std::unordered_map<std::string, int> numbers_ HOMING_GUARDED_BY(data_mutex_);

@@ -21,8 +21,8 @@ std::string PrefixOf(const std::string& robot) {
   return robot == kWildcard ? "robots/" : absl::StrCat("robots/", robot, "/journeys/");
 }
 
-// Image sizes that the request left open are filled in by the first observation: they differ
-// without being other settings.
+// The first observation sets image sizes that the request left open. Such a difference is not a
+// difference of settings.
 JourneySettings WithSizesOf(JourneySettings settings, const JourneySettings& known) {
   for (std::size_t side = 0; side < settings.cameras.size(); ++side) {
     if (settings.cameras[side].width == 0 && settings.cameras[side].height == 0) {
@@ -70,7 +70,8 @@ std::int64_t JourneyCatalog::EvictUnused() {
   std::vector<std::pair<std::uint64_t, std::map<std::string, Cached>::iterator>> unused;
   for (auto cached = live_.begin(); cached != live_.end(); ++cached) {
     bytes += cached->second.journey->MemoryBytes();
-    // Only the catalog holds it, and the catalog alone hands it out.
+    // use_count is 1: only the catalog holds the journey, and nobody else can get a reference
+    // meanwhile.
     if (cached->second.journey.use_count() == 1 && cached->second.journey->IsIdle(now_)) {
       unused.emplace_back(cached->second.last_used, cached);
     }
@@ -113,7 +114,7 @@ absl::StatusOr<std::shared_ptr<LiveJourney>> JourneyCatalog::FindOrOpen(const st
 absl::StatusOr<std::shared_ptr<LiveJourney>> JourneyCatalog::Open(const std::string& name) {
   HOMING_ASSIGN_OR_RETURN(auto journey, FindOrOpen(name));
   if (!journey->has_map()) {
-    // Without the stripe: a long map keeps no writer waiting.
+    // The stripe is not held: loading a long map must not block a writer.
     HOMING_RETURN_IF_ERROR(journey->LoadMap());
     EvictUnused();
   }
@@ -230,7 +231,7 @@ absl::Status JourneyCatalog::AddIfCovered(const JourneyName& pattern, const std:
   }
   auto journey = FindOrOpen(name);
   if (!journey.ok()) {
-    // Deleted since it was listed: it is not there, which is no error of a wildcard.
+    // The journey was deleted after it was listed: a wildcard ignores that.
     return absl::IsNotFound(journey.status()) ? absl::OkStatus() : journey.status();
   }
   journeys->push_back(*std::move(journey));
@@ -316,7 +317,7 @@ absl::StatusOr<WriterClaim> JourneyCatalog::Claim(const std::string& name,
     now_ = std::max(now_, now);
   }
   HOMING_RETURN_IF_ERROR(journey->CheckClaim(writer_id, now));
-  // First on disk: what is in memory is durable.
+  // Disk first: memory holds committed state only.
   if (journey->record().writer_id != writer_id) {
     HOMING_RETURN_IF_ERROR(store_->SetWriter(name, writer_id));
   }

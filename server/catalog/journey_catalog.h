@@ -1,4 +1,4 @@
-// All journeys: on disk, and in memory once they are used.
+// All journeys: stored, and loaded while in use.
 #ifndef SERVER_CATALOG_JOURNEY_CATALOG_H_
 #define SERVER_CATALOG_JOURNEY_CATALOG_H_
 
@@ -19,7 +19,7 @@
 namespace homing::server {
 
 class FleetIndex;
-// Which journeys of many are there for the one who asks; empty: all.
+// Selects the journeys that a caller may use. Empty: all.
 using JourneyFilter = std::function<bool(const storage::JourneyRecord&)>;
 
 // A stream's right to write a journey.
@@ -29,63 +29,63 @@ struct WriterClaim {
 };
 
 struct CatalogOptions {
-  // Maps that no one uses are let go of, those unused longest first, while all together take more
-  // than this, bytes. 0: no limit.
+  // Map-cache limit in bytes; unused maps are evicted, least recently used first. 0: unlimited.
   std::int64_t cache_bytes = 0;
 };
 
-// Names given here are well formed (resource_name.h). Errors of the store pass through.
+// Names must be well formed (resource_name.h). Errors of the store are returned unchanged.
 // Thread-safe.
 class JourneyCatalog {
  public:
-  // `store` must outlive the catalog; `index`, if there is one, as well: it is told of all changes.
+  // `store`, and `index` unless null, must outlive the catalog. Every change is reported to
+  // `index`.
   explicit JourneyCatalog(storage::JourneyStore* store, const CatalogOptions& options = {},
                           FleetIndex* index = nullptr)
       : store_(store), options_(options), index_(index) {}
 
   bool read_only() const { return store_->read_only(); }
-  // Null: there is none.
+  // Null without an index.
   FleetIndex* index() const { return index_; }
 
-  // Creates; or, when a journey of that name is active, of the same writer_id (not empty) and of
-  // the same settings, returns that one. ALREADY_EXISTS.
+  // Creates a journey. Returns the existing one if it is active and has the same writer_id (not
+  // empty) and the same settings; else ALREADY_EXISTS.
   absl::StatusOr<storage::JourneyRecord> Create(const storage::JourneyRecord& record);
-  // As in memory when it is there, else as on disk. NOT_FOUND.
+  // The loaded journey's record, or the stored one. NOT_FOUND.
   absl::StatusOr<storage::JourneyRecord> Get(const std::string& name);
-  // In order of name, after `after`, of one robot or of all (kWildcard), those that `filter` lets
-  // through; at most `limit`.
+  // The records after the name `after`, of one robot or of all (kWildcard), that pass `filter`; at
+  // most `limit`, in order of name.
   absl::StatusOr<std::vector<storage::JourneyRecord>> List(const std::string& robot,
                                                            const std::string& after, int limit,
                                                            const JourneyFilter& filter = nullptr);
-  // An active writer's stream ends ABORTED. NOT_FOUND.
+  // Ends an active writer's stream with ABORTED. NOT_FOUND.
   absl::Status Delete(const std::string& name);
-  // An active writer's stream ends FAILED_PRECONDITION. NOT_FOUND; ABORTED: `writer_id` is not that
-  // of the lease that lives.
+  // Ends an active writer's stream with FAILED_PRECONDITION. NOT_FOUND; ABORTED: another writer
+  // holds the lease.
   absl::StatusOr<storage::JourneyRecord> Finish(const std::string& name,
                                                 const std::string& writer_id, TimePoint now);
   // ALREADY_EXISTS, INVALID_ARGUMENT.
   absl::StatusOr<storage::JourneyRecord> Import(const storage::JourneyRecord& record,
                                                 const JourneyMap& map);
 
-  // With its map, which is loaded on first use. NOT_FOUND.
+  // The journey with its map, loaded if necessary. NOT_FOUND.
   absl::StatusOr<std::shared_ptr<LiveJourney>> Open(const std::string& name);
-  // All that `pattern` covers and, if it is one, `filter` lets through, in order of name. Loads no
-  // map. NOT_FOUND: none.
+  // The journeys that `pattern` covers, in order of name; `filter` applies to a wildcard only.
+  // Loads no map. NOT_FOUND: none.
   absl::StatusOr<LiveJourneys> Resolve(const JourneyName& pattern,
                                        const JourneyFilter& filter = nullptr);
   // Loads the maps of journeys that Resolve returned for `pattern`. Of a wildcard, drops those that
   // were deleted meanwhile. NOT_FOUND: none is left. RESOURCE_EXHAUSTED: the maps of a wildcard,
   // and those in use by others, need more memory than cache_bytes.
   absl::Status LoadMaps(const JourneyName& pattern, LiveJourneys* journeys);
-  // As LiveJourney::Claim; the writer is kept on disk. Loads no map. NOT_FOUND.
+  // As LiveJourney::Claim; also stores the writer. Loads no map. NOT_FOUND.
   absl::StatusOr<WriterClaim> Claim(const std::string& name, const std::string& writer_id,
                                     TimePoint now, WriterLease::Evict evict);
 
  private:
-  // Serialises what makes, loads, finishes and deletes one journey.
+  // Serialises creation, loading, finishing and deletion of one journey.
   Mutex& StripeOf(const std::string& name);
   std::shared_ptr<LiveJourney> Find(const std::string& name);
-  // Without its map. REQUIRES: the stripe.
+  // Without its map. REQUIRES: the stripe is locked.
   absl::StatusOr<std::shared_ptr<LiveJourney>> OpenLocked(const std::string& name);
   absl::StatusOr<storage::JourneyRecord> GetSameOrExists(const storage::JourneyRecord& record);
 
@@ -97,11 +97,11 @@ class JourneyCatalog {
 
   struct Cached {
     std::shared_ptr<LiveJourney> journey;
-    // Grows with each use.
+    // A counter of uses: larger is more recent.
     std::uint64_t last_used = 0;
   };
   std::shared_ptr<LiveJourney> Use(Cached* cached) HOMING_REQUIRES(mutex_);
-  // As cache_bytes says. Returns the bytes that are still in use.
+  // Evicts as cache_bytes requires. Returns the bytes that remain.
   std::int64_t EvictUnused();
 
   storage::JourneyStore* const store_;

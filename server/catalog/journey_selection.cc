@@ -16,8 +16,8 @@ struct Candidate {
   LocalizerOptions options;
 };
 
-// The robot's own camera, or that of the journey, whose left camera is the robot's left camera: the
-// same robot comes home. Sizes are those of what it sends now.
+// The robot's own camera, or else the journey's: the robot that recorded it comes home. The sizes
+// are those of the images it sends now.
 Camera CameraOf(const QueryRobot& robot, const JourneySettings& settings, std::size_t side) {
   Camera camera = robot.cameras[side].value_or(settings.cameras[side]);
   if (!robot.cameras[side]) {
@@ -61,7 +61,7 @@ LocalizerOptions MostFrequent(const std::vector<Candidate>& candidates) {
           })->first;
 }
 
-// Journeys whose settings are the same to a robot.
+// Journeys with equal settings, as seen by one robot.
 struct Group {
   LocalizerOptions options;
   std::int64_t journeys = 0;

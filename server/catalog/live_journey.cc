@@ -126,7 +126,7 @@ void LiveJourney::EndAppend(const storage::JourneyAppend& append, const absl::St
     if (status.ok()) {
       record_.next_sequence = append.sequence + 1;
       record_.input = append.input;
-      // As on the disk: an observation without a step has no say.
+      // As in the store: an observation without a step does not change the times.
       if (append.step && append.capture_time_ns != 0) {
         record_.start_time_ns =
             record_.start_time_ns == 0 ? append.capture_time_ns : record_.start_time_ns;
@@ -147,7 +147,7 @@ void LiveJourney::EndAppend(const storage::JourneyAppend& append, const absl::St
     index_->Appended(name_, *indexed, *append.step);
   }
   {
-    // Last: who deletes the journey waits for it, and tells the index then.
+    // Last, because Delete waits for it and then reports the deletion to the index.
     const MutexLock lock(mutex_);
     --appends_under_way_;
   }
@@ -196,9 +196,9 @@ void LiveJourney::AbsorbSteps() {
     }
   }
   for (const JourneyStep& step : steps) {
-    // What was loaded may hold it already.
+    // The loaded map may already hold the step.
     if (step.step < map_.step_count()) continue;
-    // The disk took the same step under the same rules: it cannot fail here.
+    // The store accepted the same step by the same rules: Append cannot fail here.
     map_.Append(step).IgnoreError();
   }
 }
@@ -213,7 +213,7 @@ absl::Status LiveJourney::LoadMap() {
   absl::StatusOr<JourneyMap> map = store_->LoadMap(name_);
   const MutexLock map_lock(map_mutex_);
   const MutexLock lock(mutex_);
-  // Another of the same name may have been made since, and its map been read.
+  // A new journey of the same name may have been created and its map loaded instead.
   absl::Status status = deleted_ ? CheckPresent() : map.status();
   if (!status.ok()) {
     map_state_ = MapState::kNone;

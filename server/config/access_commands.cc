@@ -26,7 +26,7 @@ absl::Status RunToken(const TokenOrder& order, const std::string& tokens) {
   }
   HOMING_RETURN_IF_ERROR(CheckIdentity(order.identity, "identity"));
   HOMING_ASSIGN_OR_RETURN(const std::string token, MakeToken());
-  // The robot's file first: a token that nobody has is no harm.
+  // The robot's file first: a token that the server does not know is harmless.
   HOMING_RETURN_IF_ERROR(WritePrivateFile(order.out, token + "\n"));
   HOMING_RETURN_IF_ERROR(AddToken(tokens, order.identity, HashToken(token)));
   std::cout << order.out << '\n' << tokens << '\n';

@@ -42,7 +42,7 @@ CLI::App* AddTokenCommand(CLI::App* app, TokenOrder* order) {
   return token;
 }
 
-// A value of the file as it would stand on the command line.
+// A value of the file in the form of the command line.
 std::string TextOf(const toml::node& node) {
   if (const auto text = node.value<std::string>(); text && node.is_string()) {
     return *text;
@@ -56,8 +56,8 @@ std::string TextOf(const toml::node& node) {
   throw CLI::ValidationError("config", "a value must be a string, an integer or a boolean");
 }
 
-// Gives the options that neither flag nor variable set the values of the file. Keys are the
-// names of the flags.
+// Sets the options that neither a flag nor a variable set from the file. Its keys are the names of
+// the flags.
 void ApplyFile(const std::string& path, CLI::App* app) {
   const toml::table file = toml::parse_file(path);
   for (const auto& [key, node] : file) {
@@ -85,7 +85,7 @@ int ReportError(const std::string& message) {
 
 ServerCommand ParseCommandLine(int argc, const char* const* argv) {
   ServerCommand command;
-  // Metrics are there unless refused; a port that is taken is then no reason not to serve.
+  // Metrics are on by default; then a port that is in use must not stop the server.
   command.options.http = kDefaultHttp;
   CLI::App app("Localisation server for robots: records journeys and recognises the way home.",
                "homing-server");

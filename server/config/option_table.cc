@@ -19,7 +19,7 @@ constexpr std::int64_t kMaxCount = 1'000'000;
 constexpr std::int64_t kMaxBytes = std::int64_t{1} << 50;
 constexpr std::int64_t kMaxMessage = 268'435'456;
 
-// The accessor of a member; `limits` for those of Limits.
+// The accessor of a member.
 #define HOMING_OPTION(member) [](ServerOptions& options) -> Value { return &options.member; }
 
 const std::array kOptions = {

@@ -7,7 +7,7 @@
 namespace homing::server {
 namespace {
 
-// The host of "host:port"; brackets of IPv6 taken off.
+// The host in "host:port", without the brackets of IPv6.
 std::string HostOf(const std::string& address) {
   std::string host = address.substr(0, address.rfind(':'));
   if (host.size() >= 2 && host.front() == '[' && host.back() == ']') {
@@ -18,7 +18,7 @@ std::string HostOf(const std::string& address) {
 
 bool IsLoopback(const std::string& address) {
   const std::string host = HostOf(address);
-  // A name such as 127.example.org may be any machine's.
+  // A name such as 127.example.org may belong to any machine.
   const bool is_name = host.find_first_not_of("0123456789.") != std::string::npos;
   return host == "localhost" || host == "::1" || (host.rfind("127.", 0) == 0 && !is_name) ||
          address.rfind("unix:", 0) == 0;

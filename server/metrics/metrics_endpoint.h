@@ -12,7 +12,7 @@ namespace homing::server {
 
 class MetricsEndpoint {
  public:
-  // `address` is host:port; port 0 picks one. UNAVAILABLE: it cannot be listened on.
+  // `address` is host:port; port 0 picks one. UNAVAILABLE: it is in use or not available.
   static absl::StatusOr<std::unique_ptr<MetricsEndpoint>> Start(const std::string& address,
                                                                 const Metrics& metrics);
   ~MetricsEndpoint();

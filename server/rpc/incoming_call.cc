@@ -32,7 +32,7 @@ Credentials CredentialsOf(const grpc::ServerContextBase& context) {
   }
   if (const auto peer = context.auth_context()) {
     credentials.uris = Properties(*peer, GRPC_PEER_URI_PROPERTY_NAME);
-    // OpenSSL's chain is without the client's own certificate.
+    // OpenSSL's chain does not hold the client's own certificate.
     for (const char* part :
          {GRPC_X509_PEM_CERT_PROPERTY_NAME, GRPC_X509_PEM_CERT_CHAIN_PROPERTY_NAME}) {
       const auto pem = Properties(*peer, part);
@@ -42,7 +42,7 @@ Credentials CredentialsOf(const grpc::ServerContextBase& context) {
   return credentials;
 }
 
-// "robots/r" of what a request names; empty when it names none alone.
+// "robots/r" in the name of a resource; empty if it does not name one robot.
 std::string RobotNamed(const std::string& resource) {
   const std::size_t slash = resource.find('/');
   const std::string robot = resource.substr(0, resource.find('/', slash + 1));

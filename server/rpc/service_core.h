@@ -1,4 +1,4 @@
-// What all handlers work with.
+// The objects that all handlers share.
 #ifndef SERVER_RPC_SERVICE_CORE_H_
 #define SERVER_RPC_SERVICE_CORE_H_
 
@@ -48,7 +48,8 @@ inline storage::CommitQueueOptions QueueOptions(Metrics* metrics) {
   return options;
 }
 
-// Members end in the reverse order: first the workers, then the commits that wait, then the store.
+// The order of destruction is the reverse: first the workers, then the commit queue, then the
+// store.
 struct ServiceCore {
   ServiceCore(std::unique_ptr<storage::JourneyStore> opened,
               std::shared_ptr<AccessControl> access_control, const CoreOptions& core_options)
@@ -73,7 +74,7 @@ struct ServiceCore {
   // Shared with the TLS handshake.
   const std::shared_ptr<AccessControl> access;
   const std::unique_ptr<storage::JourneyStore> store;
-  // Null: not asked for.
+  // Null without all_journeys_index.
   const std::unique_ptr<FleetIndex> index;
   JourneyCatalog catalog;
   ModelCatalog models;

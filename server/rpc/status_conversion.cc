@@ -23,7 +23,7 @@ bool IsHidden(absl::StatusCode code) {
   return code == absl::StatusCode::kInternal || code == absl::StatusCode::kUnknown;
 }
 
-// Cut, and safe in a header and in a Protobuf string.
+// Shortened, and safe in a header and in a Protobuf string.
 std::string MessageOf(const absl::Status& status) {
   if (IsHidden(status.code())) {
     spdlog::error("{}", std::string(status.ToString()));

@@ -10,12 +10,12 @@
 
 namespace homing::server {
 
-// With google.rpc details: ErrorInfo always (domain "homing"), RetryInfo for RESOURCE_EXHAUSTED and
-// UNAVAILABLE, BadRequest for INVALID_ARGUMENT (with the field of homing::FieldError). What
-// INTERNAL and UNKNOWN say stays in the server's log. Messages are cut at 1000 bytes.
+// Adds google.rpc details: ErrorInfo always (domain "homing"), RetryInfo for RESOURCE_EXHAUSTED and
+// UNAVAILABLE, BadRequest for INVALID_ARGUMENT (with the field of homing::FieldError). The messages
+// of INTERNAL and UNKNOWN go to the server's log only. Messages are cut at 1000 bytes.
 grpc::Status ToGrpcStatus(const absl::Status& status);
 
-// What `call` returns; INTERNAL or RESOURCE_EXHAUSTED (memory) for an exception.
+// The result of `call`; INTERNAL or RESOURCE_EXHAUSTED (memory) if it throws.
 absl::Status Guarded(const std::function<absl::Status()>& call);
 
 absl::Status DrainingError();

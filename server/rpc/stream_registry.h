@@ -1,4 +1,4 @@
-// Streams that are open, so that a draining server can end them.
+// The open streams, so that a draining server can end them.
 #ifndef SERVER_RPC_STREAM_REGISTRY_H_
 #define SERVER_RPC_STREAM_REGISTRY_H_
 
@@ -14,9 +14,9 @@ namespace homing::server {
 class OpenStream {
  public:
   virtual ~OpenStream() = default;
-  // Ends the stream with UNAVAILABLE, once what is on its way to the disk is answered.
+  // Ends the stream with UNAVAILABLE, after the answers to pending commits.
   virtual void Drain() = 0;
-  // Now and then: ends the stream if its caller is known no more, or if nothing moved for too long.
+  // Called periodically: ends the stream if its caller lost its access, or if it is idle.
   virtual void Tick() = 0;
 };
 
@@ -26,15 +26,15 @@ class StreamRegistry {
   // False when draining: the stream is not added and must end.
   bool Add(const std::shared_ptr<OpenStream>& stream);
   void Remove(const std::shared_ptr<OpenStream>& stream);
-  // No stream is added from now on; those that are there are told.
+  // Accepts no more streams, and drains the open ones.
   void Drain();
   bool draining() const;
-  // Tells every stream.
+  // Calls Tick of every stream.
   void Tick();
-  // Until every stream was removed.
+  // Waits until every stream was removed.
   void AwaitNone();
-  // How much of `all` each open stream may have: at least 1, at most `most`. Without a lock, so
-  // that each message may ask.
+  // The part of `all` for each open stream: at least 1, at most `most`. Takes no lock, so that each
+  // message may call it.
   std::size_t ShareOf(std::size_t all, std::size_t most) const;
 
  private:

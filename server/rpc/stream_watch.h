@@ -1,4 +1,4 @@
-// When a stream last moved, and how to break it off.
+// Watches when a stream was last active, and can cancel it.
 #ifndef SERVER_RPC_STREAM_WATCH_H_
 #define SERVER_RPC_STREAM_WATCH_H_
 
@@ -18,7 +18,7 @@ class StreamWatch {
       : core_(core), context_(context), moved_(core->options.clock()) {}
 
   void Moved() { moved_ = core_->options.clock(); }
-  // Nothing moved for longer than idle_stream_s.
+  // The stream was not active for idle_stream_s.
   bool IsIdle() const {
     const std::chrono::seconds most(core_->options.limits.idle_stream_s);
     return most.count() > 0 && core_->options.clock() - moved_.load() > most;
@@ -28,14 +28,14 @@ class StreamWatch {
     const MutexLock lock(mutex_);
     return context_ == nullptr || context_->IsCancelled();
   }
-  // The client sees CANCELLED; what is under way ends as when the link breaks.
+  // Cancels the call: the client sees CANCELLED, and the stream ends as after a broken link.
   void BreakOff() {
     const MutexLock lock(mutex_);
     if (context_ != nullptr) {
       context_->TryCancel();
     }
   }
-  // The context is gone: from OnDone.
+  // Called from OnDone: the context is no longer valid.
   void Forget() {
     const MutexLock lock(mutex_);
     context_ = nullptr;

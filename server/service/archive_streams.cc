@@ -50,7 +50,7 @@ absl::Status ImportStream::Take(const v1::ImportJourneyRequest& request) {
     }
     name_ = request.name();
     HOMING_RETURN_IF_ERROR(ParseJourneyName(name_, "name").status());
-    // A write goes by the name alone: nothing is looked up.
+    // Writing is authorised by the name alone: nothing is looked up.
     return call_.Authorize(name_);
   }
   if (name_.empty()) {
@@ -117,7 +117,7 @@ void ImportStream::Complete() {
 }
 
 void ImportStream::FinishWith(const absl::Status& status) {
-  // Before the answer: who has it may import the next file.
+  // Before the answer: the client may then import the next file.
   FreeFile();
   Finish(call_.Finish(status));
 }

@@ -31,7 +31,7 @@ class ExportStream final : public ChunkStream<v1::ExportJourneyResponse> {
   std::size_t written_ = 0;
 };
 
-// Holds itself until gRPC has done with it.
+// The stream owns itself until gRPC calls OnDone.
 class ImportStream final : public grpc::ServerReadReactor<v1::ImportJourneyRequest>,
                            public OpenStream,
                            public std::enable_shared_from_this<ImportStream> {
@@ -65,7 +65,7 @@ class ImportStream final : public grpc::ServerReadReactor<v1::ImportJourneyReque
   v1::ImportJourneyRequest request_;
   std::string name_;
   std::string file_;
-  // Of core_->import_bytes.
+  // Part of core_->import_bytes.
   std::int64_t taken_ = 0;
 };
 

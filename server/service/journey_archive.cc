@@ -152,8 +152,8 @@ absl::StatusOr<JourneySettings> SettingsOf(const v1::JourneyMap& message) {
   return result;
 }
 
-// Entry `index` of the fingerprint columns. The landmark's mean spread stands for that of each of
-// its steps: a running mean of equal values is that value, to the bit.
+// Entry `index` of the fingerprint columns. Each step gets the landmark's mean spread: a running
+// mean of equal values is that value, to the bit.
 absl::StatusOr<RecordedFingerprint> FingerprintAt(const v1::JourneyMap& message, int index) {
   const std::int32_t landmark = message.landmarks(index);
   if (landmark < 0 || landmark >= message.landmark_sides_size()) {
@@ -233,7 +233,7 @@ absl::StatusOr<ArchivedJourney> DecodeJourney(std::string_view bytes) {
       SetProfiles("left_profiles", message.left_profiles(), Side::kLeft, journey.map));
   HOMING_RETURN_IF_ERROR(
       SetProfiles("right_profiles", message.right_profiles(), Side::kRight, journey.map));
-  // One map, one file: what this program would write differently is not taken.
+  // Each map has exactly one file: a file that this program would write differently is refused.
   HOMING_ASSIGN_OR_RETURN(const std::string again, EncodeJourney(journey.record, journey.map));
   if (again != bytes) return Damaged("holds something that this program does not know");
   return journey;

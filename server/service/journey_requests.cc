@@ -153,7 +153,7 @@ absl::Status DescribeAliasing(const v1::AnalyzeAliasingRequest& request, Journey
   HOMING_RETURN_IF_ERROR(Validate(options));
   HOMING_ASSIGN_OR_RETURN(auto journey, catalog->Open(name.ToString()));
   const LiveJourneys one = {std::move(journey)};
-  // A copy: recording goes on meanwhile.
+  // A copy, because recording continues meanwhile.
   RouteProfiles profiles;
   {
     const MapsLock lock(one);

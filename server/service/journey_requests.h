@@ -1,4 +1,4 @@
-// Requests of JourneyService that take more than a name.
+// Requests of JourneyService that hold more than a name.
 #ifndef SERVER_SERVICE_JOURNEY_REQUESTS_H_
 #define SERVER_SERVICE_JOURNEY_REQUESTS_H_
 

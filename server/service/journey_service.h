@@ -1,4 +1,4 @@
-// JourneyService: each RPC decodes, makes one call of the session layer, encodes.
+// JourneyService: each RPC decodes, calls the session layer once, and encodes.
 #ifndef SERVER_SERVICE_JOURNEY_SERVICE_H_
 #define SERVER_SERVICE_JOURNEY_SERVICE_H_
 

@@ -11,7 +11,7 @@
 namespace homing::server {
 namespace {
 
-// How often a stream asks whether its robot still has room: it may go over by as many.
+// Observations between two checks of the robot's quota, which it may exceed by as many.
 constexpr std::int64_t kQuotaEvery = 256;
 
 }  // namespace

@@ -1,4 +1,4 @@
-// JourneyService.RecordJourney. Source: own design (resumable recording).
+// JourneyService.RecordJourney: recording that can be resumed.
 #ifndef SERVER_SERVICE_RECORD_STREAM_H_
 #define SERVER_SERVICE_RECORD_STREAM_H_
 

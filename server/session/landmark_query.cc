@@ -34,7 +34,7 @@ absl::Status CheckFingerprints(const SeenFingerprints& seen) {
   return absl::OkStatus();
 }
 
-// Sizes of the images behind the views; a pair of frames is measured on its first one.
+// Sizes of the views' images; a pair of frames has the size of its first one.
 absl::StatusOr<QueryRobot> MeasureRobot(const LandmarkQuery& query, const DecodeLimits& limits) {
   QueryRobot robot;
   robot.travel = query.travel;
@@ -56,7 +56,7 @@ absl::StatusOr<QueryRobot> MeasureRobot(const LandmarkQuery& query, const Decode
   return robot;
 }
 
-// Raw flow of one camera (II-B); none for fingerprints and an absent camera.
+// Raw flow of one camera (II-B); none for fingerprints and for an absent camera.
 absl::StatusOr<std::optional<FlowField>> FlowOf(const QueryView& view, const FlowOptions& options,
                                                 const DecodeLimits& limits) {
   ObservationFlow tracker(options, limits);
@@ -80,7 +80,7 @@ struct SeenNow {
   SeenSides sides;
 };
 
-// Views -> flow -> motion -> landmarks, sides turned to those of the route.
+// Views to flow to motion to landmarks, by side of the route.
 absl::StatusOr<SeenNow> See(const LandmarkQuery& query, const LocalizerOptions& options,
                             const DecodeLimits& limits) {
   SeenNow now;
@@ -134,7 +134,7 @@ absl::StatusOr<LandmarkQueryResult> MatchLandmarks(JourneyCatalog* catalog,
     return FieldError("left", "must be set unless right is");
   }
   HOMING_ASSIGN_OR_RETURN(const QueryRobot robot, MeasureRobot(query, limits));
-  // The index knows no callers: it answers those who may read all.
+  // The index cannot filter by caller: it serves callers that may read all.
   if (catalog->index() != nullptr && IsAll(pattern) && !query.filter) {
     return MatchAll(catalog->index(), query, robot, limits);
   }

@@ -12,7 +12,7 @@
 namespace homing::server {
 namespace {
 
-// Size of what one camera sent; a compressed frame that does not say it is decoded for it.
+// Size of one camera's image; a compressed frame without a size is decoded for it.
 absl::Status MeasureView(const CameraView& view, const DecodeLimits& limits, int* width,
                          int* height) {
   if (const auto* flow = std::get_if<FlowField>(&view)) {

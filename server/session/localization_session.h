@@ -1,4 +1,4 @@
-// One robot on its way home: observations to matches and a position, on the journeys it asked for.
+// Localises one robot on its way home, on the journeys that it asks for.
 #ifndef SERVER_SESSION_LOCALIZATION_SESSION_H_
 #define SERVER_SESSION_LOCALIZATION_SESSION_H_
 
@@ -15,7 +15,7 @@
 namespace homing::server {
 
 struct HomingQuery {
-  // Name or pattern; of a pattern, those that the filter lets through.
+  // Name or pattern; `filter` selects journeys of a pattern.
   std::string journey;
   JourneyFilter filter;
   Travel travel = Travel::kReturn;
@@ -24,8 +24,8 @@ struct HomingQuery {
   PositionOptions position;
 };
 
-// Not thread-safe. Journeys are chosen once, at the first observation, when image sizes are known;
-// their maps may grow all the while. Nothing is stored.
+// Not thread-safe. The first observation selects the journeys, once image sizes are known; their
+// maps may grow afterwards. Nothing is stored.
 class LocalizationSession {
  public:
   // `catalog` must outlive the session. INVALID_ARGUMENT, NOT_FOUND, FAILED_PRECONDITION (the named
@@ -34,9 +34,9 @@ class LocalizationSession {
                                                                    const HomingQuery& query,
                                                                    const DecodeLimits& limits);
 
-  // The first may have any number; each one after must have the next: OUT_OF_RANGE. NOT_FOUND: the
-  // journey, named, was deleted. FAILED_PRECONDITION: other camera or settings. INVALID_ARGUMENT.
-  // RESOURCE_EXHAUSTED: as JourneyCatalog::LoadMaps.
+  // The first observation may have any sequence; each later one must have the next: OUT_OF_RANGE.
+  // NOT_FOUND: the named journey was deleted. FAILED_PRECONDITION: other camera or settings.
+  // INVALID_ARGUMENT. RESOURCE_EXHAUSTED: as JourneyCatalog::LoadMaps.
   absl::StatusOr<Localization> Localize(const Observation& observation);
 
   // Of the journey that a Localization numbers.

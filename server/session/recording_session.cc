@@ -24,7 +24,7 @@ absl::Status GapError(std::int64_t sequence, std::int64_t due) {
                     {"SEQUENCE_GAP", {{"due", absl::StrCat(due)}}});
 }
 
-// All of the settings that an observation may change.
+// The part of the settings that an observation may change.
 std::array<int, 4> ImageSizes(const JourneySettings& settings) {
   const auto& [left, right] = settings.cameras;
   return {left.width, left.height, right.width, right.height};
@@ -80,7 +80,7 @@ void RecordingSession::Record(const Observation& observation, TimePoint now) {
 
 void RecordingSession::Reject(const absl::Status& status) { Complete(OpenSlot(), status, {}); }
 
-// Observation -> number -> step -> commit -> answer.
+// Check the sequence, make the step, submit it; the commit sends the answer.
 absl::Status RecordingSession::Process(const Observation& observation, TimePoint now,
                                        std::int64_t slot) {
   HOMING_RETURN_IF_ERROR(claim_.journey->Renew(claim_.claim, now));
