@@ -69,7 +69,7 @@ absl::StatusOr<std::optional<Observation>> CameraObservations::NextFlow() {
     auto flow_or = flow_->Compute(frames);
     if (!flow_or.ok()) return Within(absl::StrCat("observation[", next_, "]"), flow_or.status());
     ObservedFlow flow = *std::move(flow_or);
-    // The first frame has no flow; it makes no observation.
+    // The first frame has no flow and makes no observation.
     if (!flow.fields[0] && !flow.fields[1]) continue;
     for (std::size_t camera = 0; camera < flow.fields.size(); ++camera) {
       frames.views[camera] = std::monostate();

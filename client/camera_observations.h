@@ -1,5 +1,5 @@
-// A robot's one or two cameras to numbered observations: the frames themselves, or the flow
-// computed here with the journey's settings. Flow: paper II-B.
+// Makes numbered observations from a robot's one or two cameras: the frames, or the flow computed
+// here with the journey's settings. Flow: paper II-B.
 #ifndef CLIENT_CAMERA_OBSERVATIONS_H_
 #define CLIENT_CAMERA_OBSERVATIONS_H_
 
@@ -17,13 +17,13 @@ namespace homing::client {
 // Indexed by Side: the robot's cameras.
 using Cameras = std::array<std::unique_ptr<FrameSource>, 2>;
 
-// Opens those that are named; at least one. As OpenFrameSource.
+// Opens the named sources; at least one. Errors of OpenFrameSource.
 absl::StatusOr<Cameras> OpenCameras(const std::string& left, const std::string& right);
 
 class CameraObservations : public ObservationStream {
  public:
-  // With `flow` set, flow vectors: observation n is the flow from frame n to frame n + 1, so there
-  // is one less. REQUIRES: a camera; Validate(*flow).ok().
+  // With `flow` set, observations hold flow vectors: observation n is the flow from frame n to
+  // frame n + 1, so there is one observation less. REQUIRES: a camera; Validate(*flow).ok().
   CameraObservations(Cameras cameras, const std::optional<FlowOptions>& flow);
 
   absl::StatusOr<std::optional<v1::Observation>> Next() override;
@@ -34,7 +34,7 @@ class CameraObservations : public ObservationStream {
   std::int64_t size() const;
 
  private:
-  // Frames of one instant; own the bytes that an Observation views.
+  // The frames of one instant; they own the bytes that an Observation points to.
   using Instant = std::array<std::optional<SourceFrame>, 2>;
 
   absl::StatusOr<std::optional<Instant>> NextInstant();

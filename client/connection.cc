@@ -18,11 +18,11 @@
 namespace homing::client {
 namespace {
 
-// A robot's wall clock jumps when it learns the time.
+// A robot's wall clock jumps when it is set.
 using Clock = std::chrono::steady_clock;
 
 constexpr int kReconnectBackoffMs = 100;
-// After a refusal: one more attempt fits in, so that a server on its way up is not missed.
+// Time after a refusal: enough for one more attempt, for a server that is starting.
 constexpr std::chrono::milliseconds kSecondAttempt{400};
 
 absl::StatusOr<std::string> ReadPem(const std::string& flag, const std::string& path) {
@@ -53,14 +53,14 @@ absl::StatusOr<std::shared_ptr<grpc::ChannelCredentials>> MakeCredentials(
 
 grpc::ChannelArguments MakeArguments() {
   grpc::ChannelArguments arguments;
-  // A dead link shows itself within half a minute even when nothing is sent.
+  // Detects a dead link within half a minute, even without traffic.
   arguments.SetInt(GRPC_ARG_KEEPALIVE_TIME_MS, 20000);
   arguments.SetInt(GRPC_ARG_KEEPALIVE_TIMEOUT_MS, 10000);
   arguments.SetInt(GRPC_ARG_INITIAL_RECONNECT_BACKOFF_MS, kReconnectBackoffMs);
-  // gRPC's time for one attempt to connect, TLS and all: a slow radio link takes seconds.
+  // Time of one attempt to connect, with TLS: a slow radio link takes seconds.
   arguments.SetInt(GRPC_ARG_MIN_RECONNECT_BACKOFF_MS, 5000);
   arguments.SetInt(GRPC_ARG_MAX_RECONNECT_BACKOFF_MS, 2000);
-  // A Connection is a connection: programs with several of them do not lose all at once.
+  // Each Connection has its own TCP connection: a program with several does not lose all at once.
   arguments.SetInt(GRPC_ARG_USE_LOCAL_SUBCHANNEL_POOL, 1);
   // The server limits messages; answers hold no images.
   arguments.SetMaxReceiveMessageSize(64 * 1024 * 1024);

@@ -1,4 +1,4 @@
-// One attempt of a two-way stream: observations out within a window, answers in.
+// One attempt of a bidirectional stream: sends observations within a window, receives answers.
 #ifndef CLIENT_EXCHANGE_H_
 #define CLIENT_EXCHANGE_H_
 
@@ -16,8 +16,8 @@
 
 namespace homing::client {
 
-// `fill` makes a request of an observation, on the calling thread; `on_answer` is called on another
-// thread, in order. An error of either ends the stream and is returned.
+// `fill` makes a request from an observation, on the calling thread. `on_answer` is called on
+// another thread, in order. An error of either ends the stream and is returned.
 template <typename Request, typename Response>
 class Exchange {
  public:
@@ -28,7 +28,8 @@ class Exchange {
   Exchange(grpc::ClientContext* context, Stream* stream, int window)
       : context_(context), stream_(stream), window_(window) {}
 
-  // To the end of `buffer`, one answer an observation. UNAVAILABLE: the stream ended early.
+  // Sends to the end of `buffer`; each observation has one answer. UNAVAILABLE: the stream ended
+  // early.
   absl::Status Run(ResendBuffer* buffer, const Fill& fill, const OnAnswer& on_answer) {
     std::thread reader([&] { ReadAnswers(on_answer); });
     WriteAll(buffer, fill);

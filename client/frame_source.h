@@ -1,4 +1,4 @@
-// Where a robot's frames come from: image folders, video files, cameras, the simulator.
+// Sources of a robot's frames: image folders, video files, cameras, the simulator.
 #ifndef CLIENT_FRAME_SOURCE_H_
 #define CLIENT_FRAME_SOURCE_H_
 
@@ -13,7 +13,7 @@
 
 namespace homing::client {
 
-// One image; owns its bytes. JPEG and PNG files are passed on as they are.
+// One image; owns its bytes. JPEG and PNG files are passed on unchanged.
 struct SourceFrame {
   FrameEncoding encoding = FrameEncoding::kGray8;
   int width = 0;
@@ -29,16 +29,16 @@ struct SourceFrame {
 class FrameSource {
  public:
   virtual ~FrameSource() = default;
-  // Nothing at the end.
+  // std::nullopt at the end.
   virtual absl::StatusOr<std::optional<SourceFrame>> Next() = 0;
   // Number of frames, -1 if not known (live camera).
   virtual std::int64_t size() const { return -1; }
-  // Goes to frame `index` (at most size(); beyond the end of a video: its end); false: cannot (live
-  // camera).
+  // Seeks to frame `index` (at most size(); beyond the end of a video: its end); false: not
+  // possible (live camera).
   virtual bool Seek(std::int64_t index) = 0;
 };
 
-// Whether the text can name a source, without opening it. INVALID_ARGUMENT.
+// Checks that the text names a source, without opening it. INVALID_ARGUMENT.
 absl::Status CheckSourceText(const std::string& source);
 
 // SOURCE of the command line, for one camera (a simulated scene has two):

@@ -14,10 +14,10 @@ namespace homing::client {
 // Numbers inside names count as numbers: 2.png before 10.png.
 bool NaturalLess(const std::string& a, const std::string& b);
 
-// Image files of a folder, or those that a glob names, in natural order. NOT_FOUND: none.
+// The image files of a folder or of a glob, in natural order. NOT_FOUND: none.
 absl::StatusOr<std::vector<std::string>> ListImages(const std::string& folder_or_glob);
 
-// One image file. JPEG and PNG as they are, other formats as GRAY8. NOT_FOUND, INVALID_ARGUMENT.
+// One image file. JPEG and PNG unchanged, other formats as GRAY8. NOT_FOUND, INVALID_ARGUMENT.
 absl::StatusOr<SourceFrame> ReadImage(const std::string& path);
 
 // The given files in the given order.

@@ -1,4 +1,4 @@
-// The maps: create, look at, finish, delete, carry.
+// Manages journeys: create, list, finish, delete, export, import.
 #ifndef CLIENT_JOURNEY_CLIENT_H_
 #define CLIENT_JOURNEY_CLIENT_H_
 
@@ -15,17 +15,17 @@
 
 namespace homing::client {
 
-// "robots/R/journeys/J" as its two parts.
+// The two ids in "robots/R/journeys/J".
 struct JourneyName {
   // "robots/R".
   std::string parent;
   std::string journey_id;
 };
 
-// INVALID_ARGUMENT: not of that form. The ids themselves are the server's to judge.
+// INVALID_ARGUMENT: not of that form. The server checks the ids.
 absl::StatusOr<JourneyName> ParseJourneyName(const std::string& name);
 
-// Each call is repeated while it IsRetriable. Not thread-safe. Errors as the RPC of the same name.
+// Each call is retried while IsRetriable. Not thread-safe. Errors of the RPC of the same name.
 class JourneyClient {
  public:
   // REQUIRES: `connection` outlives the client.
@@ -42,7 +42,7 @@ class JourneyClient {
                              const std::function<absl::Status(const v1::Landmark&)>& each);
   absl::StatusOr<v1::AnalyzeAliasingResponse> AnalyzeAliasing(const std::string& journey,
                                                               int tolerance_steps);
-  // Not repeated: part of the file may be out already.
+  // Not retried: a part of the file may already be written.
   absl::Status Export(const std::string& name, std::ostream& file);
   absl::StatusOr<v1::Journey> Import(const std::string& name, std::istream& file);
 

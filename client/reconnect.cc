@@ -11,7 +11,7 @@ namespace {
 
 using SteadyClock = std::chrono::steady_clock;
 
-// Attempts that the server may correct (OUT_OF_RANGE: another observation is due).
+// Attempts after OUT_OF_RANGE, by which the server asks for another observation.
 constexpr int kMaxCorrections = 3;
 
 absl::Status GiveUp(const Connection& connection, const absl::Status& last) {

@@ -36,7 +36,7 @@ absl::StatusOr<std::shared_ptr<const v1::Observation>> ResendBuffer::Next() {
 void ResendBuffer::Acknowledge(std::int64_t sequence) {
   const MutexLock lock(mutex_);
   acknowledged_ = std::max(acknowledged_, sequence);
-  // What is behind the cursor and old enough can go.
+  // Entries before the cursor that are old enough are dropped.
   const std::int64_t first = std::min(acknowledged_ - keep_, cursor_);
   while (!kept_.empty() && kept_.front()->sequence() < first) kept_.pop_front();
 }

@@ -1,5 +1,5 @@
-// Observations sent and not yet acknowledged, and a few before them, to send again after a broken
-// link.
+// Keeps observations that were sent but not acknowledged, and a few before them, for resending
+// after a broken link.
 #ifndef CLIENT_RESEND_BUFFER_H_
 #define CLIENT_RESEND_BUFFER_H_
 
@@ -13,10 +13,10 @@
 
 namespace homing::client {
 
-// One thread sends (Next, Rewind), another acknowledges: thread-safe.
+// Thread-safe for one sending thread (Next, Rewind) and one acknowledging thread.
 class ResendBuffer {
  public:
-  // Keeps `keep` observations that are acknowledged already. `stream` must outlive the buffer.
+  // Keeps `keep` acknowledged observations. `stream` must outlive the buffer.
   ResendBuffer(ObservationStream* stream, int keep);
 
   // The next observation to send, from the buffer or the stream; null at the end.
@@ -25,12 +25,13 @@ class ResendBuffer {
   // Everything before `sequence` need not be sent again.
   void Acknowledge(std::int64_t sequence);
 
-  // The server has all before `durable`: sends again from `resend_from` <= `durable`, out of the
-  // buffer or by Seek. A stream that cannot go back goes on at `durable` at the latest, with a
-  // break. DATA_LOSS: what is due is neither kept nor can it be had again.
+  // The server has all observations before `durable`. Sends again from `resend_from` <= `durable`,
+  // from the buffer or by Seek. A stream that cannot seek continues at `durable` at the latest,
+  // with a break. DATA_LOSS: the expected observation is neither kept nor available from the
+  // stream.
   absl::Status Rewind(std::int64_t resend_from, std::int64_t durable);
 
-  // Sends again all that is kept. The sequence it begins with.
+  // Sends all kept observations again. Returns the first sequence.
   std::int64_t RewindAll();
 
  private:
@@ -41,7 +42,7 @@ class ResendBuffer {
   ObservationStream* stream_;
   int keep_;
   std::deque<std::shared_ptr<const v1::Observation>> kept_ HOMING_GUARDED_BY(mutex_);
-  // Sequence that Next gives next; all kept before it were sent.
+  // The sequence that Next returns next; all kept ones before it were sent.
   std::int64_t cursor_ HOMING_GUARDED_BY(mutex_) = 0;
   std::int64_t acknowledged_ HOMING_GUARDED_BY(mutex_) = 0;
 };

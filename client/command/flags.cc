@@ -19,7 +19,7 @@ namespace {
 
 constexpr char kCameraForm[] = "fx,fy,cx,cy[,k1,k2,p1,p2,k3][,yaw=RAD]";
 
-// CLI11 wants a text, empty if all is well.
+// CLI11 expects an error text, empty if the value is valid.
 std::string Explain(const absl::Status& status) { return std::string(status.message()); }
 
 absl::Status BadCamera(const std::string& text) { return TextMustBe("camera", text, kCameraForm); }

@@ -1,4 +1,4 @@
-// Flags that several commands have.
+// Flags of several commands.
 #ifndef CLIENT_COMMAND_FLAGS_H_
 #define CLIENT_COMMAND_FLAGS_H_
 
@@ -26,7 +26,7 @@ struct RobotFlags {
   std::string send = "frames";
 
   bool sends_flow() const { return send == "flow"; }
-  // Those that are given. REQUIRES: checked by the flag.
+  // The given cameras. REQUIRES: the flags were checked.
   v1::Camera left_intrinsics() const;
   v1::Camera right_intrinsics() const;
 };
@@ -42,7 +42,7 @@ CLI::Option* AddJourneyFlag(CLI::App& command, std::string& journey, bool wildca
 void AddTravelFlag(CLI::App& command, std::string& travel);
 v1::Travel ToTravel(const std::string& travel);
 
-// How the flow of a journey is computed; for a wildcard that of the first journey it covers.
+// The settings for the flow of a journey; for a wildcard those of its first journey.
 absl::StatusOr<FlowOptions> FlowOptionsOf(JourneyClient& journeys, const std::string& journey);
 
 // --writer's default: this machine's id, else its name.

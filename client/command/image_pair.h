@@ -14,7 +14,7 @@ struct ImagePair {
   SourceFrame second;
 };
 
-// For CLI11: what is wrong with the text, empty if nothing.
+// For CLI11: an error text, empty if the value is valid.
 std::string CheckImagePair(const std::string& text);
 
 // INVALID_ARGUMENT, NOT_FOUND.

@@ -117,7 +117,7 @@ absl::Status Delete(const Session& session, const JourneysFlags& flags) {
   return session.Print(absl::StrCat("deleted ", flags.journey));
 }
 
-// Written beside and renamed: FILE is whole or not there.
+// Written to another name and renamed: FILE is complete or does not exist.
 absl::Status Export(const Session& session, const JourneysFlags& flags) {
   HOMING_ASSIGN_OR_RETURN(const Connection connection, session.Connect());
   JourneyClient client(&connection, session.stop);

@@ -1,4 +1,4 @@
-// A file that a command writes: whole, or not there.
+// A file that a command writes: complete, or not at all.
 #ifndef CLIENT_COMMAND_OUTPUT_FILE_H_
 #define CLIENT_COMMAND_OUTPUT_FILE_H_
 
@@ -11,8 +11,8 @@
 
 namespace homing::client {
 
-// Makes `path` of what `write` writes and returns its size in bytes; a file that is there is
-// replaced. Errors: those of `write`, PERMISSION_DENIED, RESOURCE_EXHAUSTED.
+// Creates or replaces `path` with the output of `write`; returns its size in bytes. Errors of
+// `write`, PERMISSION_DENIED, RESOURCE_EXHAUSTED.
 absl::StatusOr<std::uintmax_t> WriteOutputFile(
     const std::string& path, const std::function<absl::Status(std::ostream&)>& write);
 

@@ -17,7 +17,7 @@ void StopAtSignal(const std::stop_source& source) {
   sigemptyset(&signals);
   sigaddset(&signals, SIGINT);
   sigaddset(&signals, SIGTERM);
-  // Before any other thread exists, so that all inherit it.
+  // Before any other thread starts, so that all threads inherit it.
   pthread_sigmask(SIG_BLOCK, &signals, nullptr);
   std::thread([signals, stop = source]() mutable {
     int signal = 0;

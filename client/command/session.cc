@@ -8,7 +8,7 @@
 namespace homing::client {
 namespace {
 
-// What the one who typed the command can do about a refusal.
+// A hint for the user, by the kind of error.
 std::string AdviceOn(const absl::Status& status) {
   if (absl::IsUnauthenticated(status)) {
     return "say who this is: --tls-cert and --tls-key, or --token-file";

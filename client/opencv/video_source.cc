@@ -30,13 +30,13 @@ SourceFrame ToFrame(const cv::Mat& image) {
   return frame;
 }
 
-// Seeks by reading on from the start: seeking to a key frame would give other frames than the first
-// time.
+// Seeks by reading from the start: seeking to a key frame would give other frames than the first
+// pass.
 class VideoSource : public FrameSource {
  public:
   VideoSource(std::string path, bool live) : path_(std::move(path)), live_(live) {}
 
-  // The first frame is read here, so that what is no video says so at once.
+  // Read the first frame now, so that a file that is no video fails at once.
   absl::Status Open() {
     try {
       capture_.open(path_);
@@ -104,7 +104,7 @@ class VideoSource : public FrameSource {
 }  // namespace
 
 absl::StatusOr<std::unique_ptr<FrameSource>> OpenVideo(const std::string& path) {
-  // What is wrong is said once, by us.
+  // OpenCV's own messages are turned off: we report the error once.
   cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
   auto video = std::make_unique<VideoSource>(path, absl::StartsWith(path, "/dev/video"));
   HOMING_RETURN_IF_ERROR(video->Open());

@@ -172,12 +172,12 @@ void Canvas::Image(const Box& box, const GrayImage& image, double strength) {
   cairo_translate(page_->cairo, box.x, box.y);
   cairo_scale(page_->cairo, box.width / image.width, box.height / image.height);
   cairo_set_source_surface(page_->cairo, surface, 0, 0);
-  // Else the outermost pixels fade into nothing.
+  // Without padding the outermost pixels fade out.
   cairo_pattern_set_extend(cairo_get_source(page_->cairo), CAIRO_EXTEND_PAD);
   cairo_rectangle(page_->cairo, 0, 0, image.width, image.height);
   cairo_fill(page_->cairo);
   cairo_restore(page_->cairo);
-  // An SVG keeps a copy of the image only while its surface lives.
+  // An SVG surface keeps a copy of the image only while the image's surface lives.
   cairo_surface_flush(page_->surface);
   cairo_surface_finish(surface);
   cairo_surface_destroy(surface);

@@ -17,9 +17,9 @@ namespace {
 using Column = google::protobuf::RepeatedField<float>;
 
 constexpr std::int64_t kNanosecondsPerSecond = 1'000'000'000;
-// Last whole second whose nanoseconds fit.
+// The last second whose nanoseconds fit into 64 bits.
 constexpr std::int64_t kMaxSeconds = 9'223'372'035;
-// Far beyond any image, near enough for all arithmetic, pixels.
+// Larger than any image, small enough for all arithmetic, pixels.
 constexpr float kMaxCoordinate = 65536;
 
 bool IsRaw(FrameEncoding encoding) {
@@ -27,7 +27,7 @@ bool IsRaw(FrameEncoding encoding) {
          encoding == FrameEncoding::kBgr8;
 }
 
-// A field's name: of what holds it, and its own.
+// A field's name in two parts: its message's, and its own.
 struct FieldName {
   const std::string& holder;
   const char* own;
@@ -44,7 +44,7 @@ absl::Status CheckColumn(const Column& column, int size, const FieldName& field)
   if (column.size() != size) {
     return MustBe(field.ToString(), column.size(), absl::StrCat(size, " entries, as start_x"));
   }
-  // Almost always all are: looked at without a branch for each.
+  // Almost always all are valid: the test has no branch for each value.
   std::int32_t beyond = 0;
   for (const float value : column) {
     beyond |= std::abs(value) <= kMaxCoordinate ? 0 : 1;
