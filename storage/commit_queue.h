@@ -24,7 +24,7 @@ struct CommitQueueOptions {
   std::chrono::milliseconds gather_time{2};
   // Called by the committing thread after each transaction, unless empty: how many appends were
   // stored, whether the transaction succeeded, and how long it took.
-  std::function<void(int stored, bool ok, std::chrono::duration<double> time)> on_commit;
+  std::function<void(int stored, bool ok, std::chrono::duration<double> time)> on_commit = nullptr;
 };
 
 // One thread commits the waiting appends in their order; another one calls back, so that the next
