@@ -1,6 +1,5 @@
 #include "server/catalog/journey_catalog.h"
 
-#include <algorithm>
 #include <functional>
 #include <utility>
 
@@ -50,61 +49,18 @@ Mutex& JourneyCatalog::StripeOf(const std::string& name) {
   return stripes_[std::hash<std::string>()(name) % stripes_.size()];
 }
 
-std::shared_ptr<LiveJourney> JourneyCatalog::Find(const std::string& name) {
-  const MutexLock lock(mutex_);
-  const auto found = live_.find(name);
-  return found == live_.end() ? nullptr : Use(&found->second);
-}
-
-std::shared_ptr<LiveJourney> JourneyCatalog::Use(Cached* cached) {
-  cached->last_used = ++uses_;
-  return cached->journey;
-}
-
-std::int64_t JourneyCatalog::EvictUnused() {
-  if (options_.cache_bytes <= 0) {
-    return 0;
-  }
-  const MutexLock lock(mutex_);
-  std::int64_t bytes = 0;
-  std::vector<std::pair<std::uint64_t, std::map<std::string, Cached>::iterator>> unused;
-  for (auto cached = live_.begin(); cached != live_.end(); ++cached) {
-    bytes += cached->second.journey->MemoryBytes();
-    // use_count is 1: only the catalog holds the journey, and nobody else can get a reference
-    // meanwhile.
-    if (cached->second.journey.use_count() == 1 && cached->second.journey->IsIdle(now_)) {
-      unused.emplace_back(cached->second.last_used, cached);
-    }
-  }
-  if (bytes <= options_.cache_bytes) {
-    return bytes;
-  }
-  std::sort(unused.begin(), unused.end(),
-            [](const auto& a, const auto& b) { return a.first < b.first; });
-  // Evict down to 90 %, so that the next use does not evict again.
-  for (const auto& [last_used, cached] : unused) {
-    if (bytes <= options_.cache_bytes / 10 * 9) {
-      break;
-    }
-    bytes -= cached->second.journey->MemoryBytes();
-    live_.erase(cached);
-  }
-  return bytes;
-}
-
 absl::StatusOr<std::shared_ptr<LiveJourney>> JourneyCatalog::OpenLocked(const std::string& name) {
-  if (auto journey = Find(name)) {
+  if (auto journey = cache_.Find(name)) {
     return journey;
   }
   HOMING_ASSIGN_OR_RETURN(JourneyRecord record, store_->GetJourney(name));
   auto journey = std::make_shared<LiveJourney>(std::move(record), store_, index_);
-  const MutexLock lock(mutex_);
-  live_[name] = {journey, ++uses_};
+  cache_.Insert(name, journey);
   return journey;
 }
 
 absl::StatusOr<std::shared_ptr<LiveJourney>> JourneyCatalog::FindOrOpen(const std::string& name) {
-  if (auto journey = Find(name)) {
+  if (auto journey = cache_.Find(name)) {
     return journey;
   }
   const MutexLock lock(StripeOf(name));
@@ -116,7 +72,7 @@ absl::StatusOr<std::shared_ptr<LiveJourney>> JourneyCatalog::Open(const std::str
   if (!journey->has_map()) {
     // The stripe is not held: loading a long map must not block a writer.
     HOMING_RETURN_IF_ERROR(journey->LoadMap());
-    EvictUnused();
+    cache_.EvictUnused();
   }
   return journey;
 }
@@ -145,7 +101,7 @@ absl::StatusOr<JourneyRecord> JourneyCatalog::Create(const JourneyRecord& record
 }
 
 absl::StatusOr<JourneyRecord> JourneyCatalog::Get(const std::string& name) {
-  if (const auto journey = Find(name)) {
+  if (const auto journey = cache_.Find(name)) {
     return journey->record();
   }
   return store_->GetJourney(name);
@@ -177,7 +133,7 @@ absl::StatusOr<std::vector<JourneyRecord>> JourneyCatalog::List(const std::strin
 
 absl::Status JourneyCatalog::Delete(const std::string& name) {
   const MutexLock lock(StripeOf(name));
-  const auto journey = Find(name);
+  const auto journey = cache_.Find(name);
   if (journey) {
     journey->EvictWriter(
         WithReason(absl::AbortedError(absl::StrCat("journey: \"", name, "\" was deleted")),
@@ -189,8 +145,7 @@ absl::Status JourneyCatalog::Delete(const std::string& name) {
   }
   if (journey) {
     journey->MarkDeleted();
-    const MutexLock table_lock(mutex_);
-    live_.erase(name);
+    cache_.Erase(name);
   }
   return absl::OkStatus();
 }
@@ -198,7 +153,7 @@ absl::Status JourneyCatalog::Delete(const std::string& name) {
 absl::StatusOr<JourneyRecord> JourneyCatalog::Finish(const std::string& name,
                                                      const std::string& writer_id, TimePoint now) {
   const MutexLock lock(StripeOf(name));
-  const auto journey = Find(name);
+  const auto journey = cache_.Find(name);
   if (journey) {
     HOMING_RETURN_IF_ERROR(journey->CheckWriter(writer_id, now));
     journey->EvictWriter(
@@ -271,7 +226,7 @@ absl::Status JourneyCatalog::LoadMap(const JourneyName& pattern, LiveJourney* jo
     return absl::OkStatus();
   }
   HOMING_RETURN_IF_ERROR(journey->LoadMap());
-  const std::int64_t bytes = EvictUnused();
+  const std::int64_t bytes = cache_.EvictUnused();
   // A robot that names its journey is served at any size.
   if (pattern.is_pattern() && bytes > options_.cache_bytes) {
     return WithReason(
@@ -307,15 +262,12 @@ absl::StatusOr<WriterClaim> JourneyCatalog::Claim(const std::string& name,
     return absl::FailedPreconditionError("the server is read-only: it records nothing");
   }
   const MutexLock lock(StripeOf(name));
-  auto journey = Find(name);
+  auto journey = cache_.Find(name);
   if (!journey) {
     HOMING_ASSIGN_OR_RETURN(journey, OpenLocked(name));
-    EvictUnused();
+    cache_.EvictUnused();
   }
-  {
-    const MutexLock table_lock(mutex_);
-    now_ = std::max(now_, now);
-  }
+  cache_.SetTime(now);
   HOMING_RETURN_IF_ERROR(journey->CheckClaim(writer_id, now));
   // Disk first: memory holds committed state only.
   if (journey->record().writer_id != writer_id) {

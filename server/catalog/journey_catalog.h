@@ -4,7 +4,6 @@
 
 #include <array>
 #include <functional>
-#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -13,6 +12,7 @@
 #include "absl/status/statusor.h"
 #include "homing/base/mutex.h"
 #include "server/base/resource_name.h"
+#include "server/catalog/journey_cache.h"
 #include "server/catalog/live_journey.h"
 #include "storage/journey_store.h"
 
@@ -41,7 +41,7 @@ class JourneyCatalog {
   // `index`.
   explicit JourneyCatalog(storage::JourneyStore* store, const CatalogOptions& options = {},
                           FleetIndex* index = nullptr)
-      : store_(store), options_(options), index_(index) {}
+      : store_(store), options_(options), index_(index), cache_(options.cache_bytes) {}
 
   bool read_only() const { return store_->read_only(); }
   // Null without an index.
@@ -84,7 +84,6 @@ class JourneyCatalog {
  private:
   // Serialises creation, loading, finishing and deletion of one journey.
   Mutex& StripeOf(const std::string& name);
-  std::shared_ptr<LiveJourney> Find(const std::string& name);
   // Without its map. REQUIRES: the stripe is locked.
   absl::StatusOr<std::shared_ptr<LiveJourney>> OpenLocked(const std::string& name);
   absl::StatusOr<storage::JourneyRecord> GetSameOrExists(const storage::JourneyRecord& record);
@@ -95,24 +94,11 @@ class JourneyCatalog {
   // NOT_FOUND: a journey of that name is neither in memory nor on disk.
   absl::StatusOr<std::shared_ptr<LiveJourney>> FindOrOpen(const std::string& name);
 
-  struct Cached {
-    std::shared_ptr<LiveJourney> journey;
-    // A counter of uses: larger is more recent.
-    std::uint64_t last_used = 0;
-  };
-  std::shared_ptr<LiveJourney> Use(Cached* cached) HOMING_REQUIRES(mutex_);
-  // Evicts as cache_bytes requires. Returns the bytes that remain.
-  std::int64_t EvictUnused();
-
   storage::JourneyStore* const store_;
   const CatalogOptions options_;
   FleetIndex* const index_;
   std::array<Mutex, 32> stripes_;
-  Mutex mutex_;
-  std::map<std::string, Cached> live_ HOMING_GUARDED_BY(mutex_);
-  std::uint64_t uses_ HOMING_GUARDED_BY(mutex_) = 0;
-  // The latest time that a caller gave.
-  TimePoint now_ HOMING_GUARDED_BY(mutex_);
+  JourneyCache cache_;
 };
 
 }  // namespace homing::server
