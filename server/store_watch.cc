@@ -37,9 +37,9 @@ void StoreWatch::Run() {
     if (status.ok() == well) continue;
     well = status.ok();
     if (well) {
-      spdlog::info("the store takes writes again");
+      spdlog::info("the store accepts writes again");
     } else {
-      spdlog::error("not serving, the store takes no writes: {}", std::string(status.message()));
+      spdlog::error("not serving: the store accepts no writes: {}", std::string(status.message()));
     }
     on_change_(well);
   }

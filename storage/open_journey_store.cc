@@ -46,10 +46,10 @@ absl::Status LimitSize(Connection& connection, std::int64_t max_bytes) {
 // A server that stopped cleanly leaves no log, or an empty one.
 absl::Status CheckClosedWell(const std::string& path) {
   if (!HasLog(path)) return absl::OkStatus();
-  return absl::FailedPreconditionError(
-      absl::StrCat("store: '", path,
-                   "-wal' holds what is not yet in the file, which was not closed well: start "
-                   "homing-server on it once without --readonly, or take a backup"));
+  return absl::FailedPreconditionError(absl::StrCat(
+      "store: '", path,
+      "-wal' holds pages that are not in the file, which was not closed cleanly: start "
+      "homing-server on it once without --readonly, or make a backup"));
 }
 
 absl::StatusOr<std::unique_ptr<JourneyStore>> OpenReadOnly(const std::string& path,

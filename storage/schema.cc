@@ -226,7 +226,7 @@ absl::Status CheckSchema(Connection& connection) {
     if (version == kSchemaVersion) return absl::OkStatus();
     return absl::FailedPreconditionError(absl::StrCat(
         "store: schema version is ", version, ", older than this program's ", kSchemaVersion,
-        ": start homing-server on it once, not read-only, to bring it up to date"));
+        ": start homing-server on it once, not read-only, to migrate it"));
   });
 }
 

@@ -106,7 +106,7 @@ absl::StatusOr<Caller> AccessControl::Identify(const Credentials& credentials) c
   const bool has_token = !credentials.authorizations.empty();
   if (!has_certificate && !has_token) {
     return Unauthenticated("NO_CREDENTIALS",
-                           "who calls is not known; a client certificate or a token is required");
+                           "no credentials: send a client certificate or a bearer token");
   }
   Caller caller;
   if (has_certificate) {

@@ -228,7 +228,7 @@ class BidiStream : public grpc::ServerBidiReactor<Request, Response>,
   // The link is broken: nothing more can be written.
   void Break() HOMING_REQUIRES(mutex_) {
     if (!end_status_) {
-      end_status_ = absl::CancelledError("the client went away");
+      end_status_ = absl::CancelledError("the client disconnected");
     }
     if (!writes_.empty()) {
       writes_.resize(writing_ ? 1 : 0);

@@ -58,7 +58,7 @@ class ChunkStream : public grpc::ServerWriteReactor<Response>,
     if (ok) {
       WriteNext();
     } else {
-      this->Finish(call_.Finish(absl::CancelledError("the client went away")));
+      this->Finish(call_.Finish(absl::CancelledError("the client disconnected")));
     }
   }
 

@@ -69,7 +69,7 @@ IncomingCall::IncomingCall(ServiceCore* core, const grpc::ServerContextBase& con
 
 IncomingCall::~IncomingCall() {
   if (!finished_) {
-    Finish(absl::CancelledError("the client went away"));
+    Finish(absl::CancelledError("the client disconnected"));
   }
 }
 

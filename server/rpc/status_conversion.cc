@@ -91,7 +91,7 @@ absl::Status Guarded(const std::function<absl::Status()>& call) {
   try {
     return call();
   } catch (const std::bad_alloc&) {
-    return absl::ResourceExhaustedError("memory is used up");
+    return absl::ResourceExhaustedError("out of memory");
   } catch (const std::exception& error) {
     return absl::InternalError(error.what());
   } catch (...) {
@@ -104,7 +104,7 @@ absl::Status DrainingError() {
 }
 
 absl::Status IdleError() {
-  return WithReason(absl::UnavailableError("nothing came on the stream for too long"),
+  return WithReason(absl::UnavailableError("the stream was idle for too long"),
                     {"IDLE", {}});
 }
 

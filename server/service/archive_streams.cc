@@ -70,7 +70,7 @@ absl::Status ImportStream::TakeChunk(const std::string& chunk) {
   const std::int64_t most = core_->options.limits.memory_quota;
   if ((core_->import_bytes += bytes) > most && most > 0) {
     return WithReason(absl::ResourceExhaustedError(absl::StrCat(
-                          "the files being imported are more than memory-quota, ", most, " bytes")),
+                          "the running imports need more than memory-quota, ", most, " bytes")),
                       {"IMPORT_MEMORY", {}});
   }
   file_ += chunk;

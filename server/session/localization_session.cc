@@ -7,7 +7,7 @@
 #include "homing/base/field_error.h"
 #include "homing/base/range_check.h"
 #include "homing/base/status_macros.h"
-#include "server/base/error_reason.h"
+#include "server/session/sequence_check.h"
 
 namespace homing::server {
 namespace {
@@ -64,13 +64,9 @@ absl::StatusOr<std::unique_ptr<LocalizationSession>> LocalizationSession::Open(
 }
 
 absl::Status LocalizationSession::CheckSequence(std::int64_t sequence) {
-  if (sequence < 0) {
-    return MustBe("observation.sequence", sequence, "at least 0");
-  }
+  HOMING_RETURN_IF_ERROR(CheckSequenceNumber(sequence));
   if (due_ && sequence != *due_) {
-    return WithReason(absl::OutOfRangeError(absl::StrCat("observation.sequence is ", sequence, "; ",
-                                                         *due_, " is due")),
-                      {"SEQUENCE_GAP", {{"due", absl::StrCat(*due_)}}});
+    return SequenceGapError(sequence, *due_);
   }
   return absl::OkStatus();
 }

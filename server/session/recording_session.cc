@@ -10,18 +10,13 @@
 #include "homing/base/range_check.h"
 #include "homing/base/status_macros.h"
 #include "server/base/error_reason.h"
+#include "server/session/sequence_check.h"
 
 namespace homing::server {
 namespace {
 
 std::string KindName(InputKind kind) {
   return kind == InputKind::kFrames ? "frames" : "flow vectors";
-}
-
-absl::Status GapError(std::int64_t sequence, std::int64_t due) {
-  return WithReason(absl::OutOfRangeError(
-                        absl::StrCat("observation.sequence is ", sequence, "; ", due, " is due")),
-                    {"SEQUENCE_GAP", {{"due", absl::StrCat(due)}}});
 }
 
 // The part of the settings that an observation may change.
@@ -111,12 +106,10 @@ absl::Status RecordingSession::Process(const Observation& observation, TimePoint
 }
 
 absl::Status RecordingSession::CheckDue(const Observation& observation) const {
-  if (observation.sequence < 0) {
-    return MustBe("observation.sequence", observation.sequence, "at least 0");
-  }
-  const bool goes_on_after_break = observation.break_before && observation.sequence == next_;
-  if (observation.sequence > due_ && !goes_on_after_break) {
-    return GapError(observation.sequence, due_);
+  HOMING_RETURN_IF_ERROR(CheckSequenceNumber(observation.sequence));
+  const bool resumes_after_break = observation.break_before && observation.sequence == next_;
+  if (observation.sequence > due_ && !resumes_after_break) {
+    return SequenceGapError(observation.sequence, due_);
   }
   return absl::OkStatus();
 }
@@ -125,8 +118,8 @@ absl::Status RecordingSession::CheckKind(const Observation& observation) {
   HOMING_ASSIGN_OR_RETURN(const InputKind kind, InputKindOf(observation));
   if (kind_ != InputKind::kUnknown && kind != kind_) {
     return WithReason(absl::FailedPreconditionError(absl::StrCat(
-                          "observation holds ", KindName(kind), "; the journey is recorded with ",
-                          KindName(kind_), " and takes nothing else")),
+                          "observation: ", KindName(kind), " must be ", KindName(kind_),
+                          ", as the journey is recorded with ", KindName(kind_))),
                       {"OTHER_INPUT", {}});
   }
   kind_ = kind;

@@ -187,7 +187,7 @@ TEST_F(LinkTest, RepeatedAndReorderedRequestsStoreNothingTwice) {
     }
     recording.Send(test::FlowAt(6));
     EXPECT_THAT(recording.AwaitEnd(),
-                GrpcStatusIs(grpc::StatusCode::OUT_OF_RANGE, HasSubstr("5 is due")));
+                GrpcStatusIs(grpc::StatusCode::OUT_OF_RANGE, HasSubstr("must be 5")));
   }
   Recording recording(journeys_.get(), kJourney);
   for (int i = 0; i < 8; ++i) recording.Record(test::FlowAt(i));

@@ -125,7 +125,7 @@ TEST_F(StoreProcessTest, ReadOnlyAfterAKillIsRefusedUntilItWasStartedOnce) {
   const Ran refused =
       RunServer({"--listen", "127.0.0.1:0", "--database", server_.Url(), "--readonly"});
   EXPECT_EQ(refused.code, 1);
-  EXPECT_THAT(refused.errors, HasSubstr("not closed well"));
+  EXPECT_THAT(refused.errors, HasSubstr("not closed cleanly"));
   Start();
   ASSERT_EQ(server_.Stop(), 0);
   Start({"--readonly"});

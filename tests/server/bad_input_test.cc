@@ -211,13 +211,13 @@ TEST_F(BadInputTest, AGapSaysWhichNumberIsDueAndARepeatStoresNothing) {
   recording.Send(test::FlowAt(4));
   const grpc::Status status = recording.AwaitEnd();
   EXPECT_THAT(status,
-              GrpcStatusIs(grpc::StatusCode::OUT_OF_RANGE, "observation.sequence is 4; 3 is due"));
+              GrpcStatusIs(grpc::StatusCode::OUT_OF_RANGE, "observation.sequence: 4 must be 3"));
   EXPECT_EQ(ReasonOf(status), "SEQUENCE_GAP");
   Localizing localizing(homing_.get(), LocalizeOn(kOld));
   localizing.Localize(test::FlowAt(0));
   localizing.Send(test::FlowAt(2));
   EXPECT_THAT(localizing.AwaitEnd(),
-              GrpcStatusIs(grpc::StatusCode::OUT_OF_RANGE, HasSubstr("1 is due")));
+              GrpcStatusIs(grpc::StatusCode::OUT_OF_RANGE, HasSubstr("must be 1")));
 }
 
 TEST_F(BadInputTest, ANegativeSequenceIsInvalid) {

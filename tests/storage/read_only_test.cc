@@ -88,7 +88,7 @@ TEST_F(ReadOnlyTest, ManyMayReadButNotBesideAWriter) {
 TEST_F(ReadOnlyTest, ALogThatIsNotInTheFileIsRefused) {
   std::ofstream(path_ + "-wal") << "something";
   EXPECT_THAT(Open(),
-              StatusIs(absl::StatusCode::kFailedPrecondition, HasSubstr("not closed well")));
+              StatusIs(absl::StatusCode::kFailedPrecondition, HasSubstr("not closed cleanly")));
 }
 
 TEST_F(ReadOnlyTest, AnOlderOrNewerSchemaIsRefusedAndLeft) {

@@ -80,9 +80,9 @@ TEST_F(LocalizationSessionTest, NumbersMayBeginAnywhereAndThenHaveNoGap) {
   const auto session = Open().value();
   ASSERT_THAT(session->Localize(test::FlowAt(7, 5)), IsOk());
   EXPECT_THAT(session->Localize(test::FlowAt(9, 6)),
-              StatusIs(absl::StatusCode::kOutOfRange, HasSubstr("8 is due")));
+              StatusIs(absl::StatusCode::kOutOfRange, HasSubstr("must be 8")));
   EXPECT_THAT(session->Localize(test::FlowAt(7, 5)),
-              StatusIs(absl::StatusCode::kOutOfRange, HasSubstr("8 is due")));
+              StatusIs(absl::StatusCode::kOutOfRange, HasSubstr("must be 8")));
   EXPECT_THAT(session->Localize(test::FlowAt(8, 6)), IsOk());
 }
 

@@ -78,7 +78,7 @@ TEST_F(RecordingSessionTest, AGapSaysWhichNumberIsDueAfterTheAnswersBefore) {
   session->Record(test::FlowAt(1), {});
   session->Record(test::FlowAt(5), {});
   const absl::Status end = ear.AwaitEnd();
-  EXPECT_THAT(end, StatusIs(absl::StatusCode::kOutOfRange, "observation.sequence is 5; 2 is due"));
+  EXPECT_THAT(end, StatusIs(absl::StatusCode::kOutOfRange, "observation.sequence: 5 must be 2"));
   EXPECT_EQ(ReasonOf(end).reason, "SEQUENCE_GAP");
   EXPECT_EQ(ReasonOf(end).metadata.at("due"), "2");
   EXPECT_EQ(ear.AwaitAnswers(3).size(), 3u);
@@ -147,7 +147,7 @@ TEST_F(RecordingSessionTest, FramesThatGoOnWithoutLookBackHaveAGapUnlessMarkedAs
   Ear deaf;
   const auto hasty = Open(&deaf).value();
   hasty->Record(FrameAt(3), {});
-  EXPECT_THAT(deaf.AwaitEnd(), StatusIs(absl::StatusCode::kOutOfRange, HasSubstr("2 is due")));
+  EXPECT_THAT(deaf.AwaitEnd(), StatusIs(absl::StatusCode::kOutOfRange, HasSubstr("must be 2")));
   Ear ear;
   const auto session = Open(&ear).value();
   Observation marked = FrameAt(3);
