@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "absl/strings/str_cat.h"
-#include "homing/base/field_error.h"
 #include "homing/base/range_check.h"
 #include "homing/base/status_macros.h"
 #include "server/session/sequence_check.h"

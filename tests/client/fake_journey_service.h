@@ -1,5 +1,4 @@
-// A server that keeps the durable contract of RecordJourney and breaks the link where it is told
-// to.
+// A server that keeps the durable contract of RecordJourney and breaks links as `Faults` says.
 #ifndef TESTS_CLIENT_FAKE_JOURNEY_SERVICE_H_
 #define TESTS_CLIENT_FAKE_JOURNEY_SERVICE_H_
 
@@ -40,7 +39,7 @@ class FakeJourneyService : public v1::JourneyService::Service, public v1::Homing
       grpc::ServerContext* context,
       grpc::ServerReaderWriter<v1::LocalizeResponse, v1::LocalizeRequest>* stream) override;
 
-  // What is durable, in the order stored.
+  // The durable observations, in the order stored.
   std::vector<v1::Observation> stored() const;
   // Links begun.
   int links() const;

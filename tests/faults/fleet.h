@@ -1,4 +1,4 @@
-// Robots, a thread each, that record one journey after the other until told to stop.
+// Robots, a thread each, that record one journey after another until stopped.
 #ifndef TESTS_FAULTS_FLEET_H_
 #define TESTS_FAULTS_FLEET_H_
 

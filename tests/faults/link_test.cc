@@ -62,7 +62,7 @@ INSTANTIATE_TEST_SUITE_P(Sent, CutTest, ::testing::Values(0, 1), [](const auto& 
   return sent.param == 0 ? std::string("flow") : std::string("frames");
 });
 
-// The first connection breaks after so many bytes; the client goes on with another.
+// The first connection breaks after this many bytes; the client continues on another.
 TEST_P(CutTest, AtAnyByteTheMapIsTheSame) {
   robot_.robot = GetParam();
   const std::string expected = Undisturbed();
@@ -148,7 +148,7 @@ TEST_F(LinkTest, AClientThatCrawlsHoldsUpNobody) {
   crawling.join();
 }
 
-// It asks and asks; what it does not read holds it back, and no one else.
+// A client that sends requests and reads no answers blocks itself, and no other client.
 TEST_F(LinkTest, AClientThatNeverReadsIsHeldBackAndHoldsUpNobody) {
   constexpr int kMost = 50'000;
   ASSERT_THAT(Create(), IsGrpcOk());

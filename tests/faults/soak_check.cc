@@ -21,7 +21,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using Seconds = std::chrono::duration<double>;
 
-// Of the time: the restarts are over, and what grows at first has grown.
+// Fraction of the time after which the restarts are over and the initial growth has ended.
 constexpr double kRestartsUntil = 0.12;
 constexpr double kWarm = 0.2;
 constexpr int kRestarts = 3;
@@ -51,8 +51,8 @@ class Latencies {
   std::array<std::vector<double>, 2> milliseconds_;
 };
 
-// What robots on a link that is whole waited for answers, and those on the link that is cut, who
-// wait until they are connected again.
+// Latencies of robots on an undisturbed link, and of those on the cut link, which include the time
+// until they are connected again.
 struct LinkLatencies {
   Latencies whole;
   Latencies cut;

@@ -144,7 +144,7 @@ TEST_F(StoreProcessTest, ADamagedFileIsToldAndSalvaged) {
   const Ran whole = RunServer({"doctor", database_});
   EXPECT_EQ(whole.code, 0) << whole.out << whole.errors;
   EXPECT_THAT(whole.out, HasSubstr("the file is whole"));
-  // The last page holds the end of what was recorded last.
+  // The last page holds the end of the last recording.
   std::fstream file(database_, std::ios::in | std::ios::out | std::ios::binary);
   file.seekp(static_cast<std::streamoff>(fs::file_size(database_)) - 4096);
   file << std::string(4096, 'x');

@@ -40,7 +40,7 @@ class CliRestartTest : public CliDriveTest, public ::testing::WithParamInterface
       ASSERT_TRUE(program.ReadLine().has_value()) << program.Stderr();
     }
   }
-  // Recorded at once, on a file of its own.
+  // Recorded without a break, on another database.
   std::string Undisturbed() {
     StartServer("undisturbed.db");
     const Ran ran = Run(Record());

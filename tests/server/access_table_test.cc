@@ -1,4 +1,4 @@
-// Role x method x owner over a real socket: who is let in, and with which code the others are not.
+// Role x method x owner over a real socket: the permitted calls, and the codes of the others.
 #include <google/protobuf/descriptor.h>
 
 #include <chrono>
@@ -112,7 +112,7 @@ INSTANTIATE_TEST_SUITE_P(Index, AccessTableTest, ::testing::Bool(), [](const aut
   return std::string(index.param ? "Searched" : "Scanned");
 });
 
-// A list is of what may be seen: whoever has that right of anything may ask.
+// A list holds visible journeys only: a caller that may see any journey may list.
 bool IsAllowed(const Row& row, const RpcTraits& traits) {
   if (traits.rpc == Rpc::kListJourneys) {
     return std::string(row.rights) != "";

@@ -1,5 +1,5 @@
-// Whatever comes over the wire, the caller gets its documented code and message, the server goes on
-// serving others, and nothing stored is lost.
+// For any input the caller gets the documented code and message, the server continues to serve
+// others, and no stored data is lost.
 #include <cmath>
 #include <functional>
 #include <limits>

@@ -108,7 +108,7 @@ TEST_F(LimitsTest, SizeOfTheDatabase) {
   Restart();
   Recording recording(journeys_.get(), kJourney);
   v1::RecordJourneyResponse response;
-  // One answer behind what is sent.
+  // Reads one answer for each observation sent before it.
   for (int place = 0; recording.Send(test::FlowAt(place)) && recording.Read(&response); ++place) {
   }
   const grpc::Status status = recording.AwaitEnd();
@@ -165,7 +165,7 @@ TEST_F(LimitsTest, FilesBeingImportedShareTheMemory) {
               GrpcStatusIs(grpc::StatusCode::INVALID_ARGUMENT, HasSubstr("journey file")));
 }
 
-// What is answered to GET of `path` by whom listens on `address`.
+// The answer to GET of `path` at `address`.
 std::string HttpGet(const std::string& address, const std::string& path) {
   const int port = std::stoi(address.substr(address.rfind(':') + 1));
   const int file = ::socket(AF_INET, SOCK_STREAM, 0);

@@ -147,8 +147,7 @@ TEST_F(LoadRunTest, OverTlsWithACertificateOfTheClient) {
   connection_.tls_cert = folder_.File("pki/operators/chief.pem");
   connection_.tls_key = folder_.File("pki/operators/chief.key");
   ExpectAllAnswered(Run());
-  // 127.1 leads to the same server, and is not what its certificate says; it is no name either,
-  // though its letters would do for an address.
+  // 127.1 leads to the same server, but is not in its certificate; it is not a valid name either.
   connection_.address = "127.1" + server_->address().substr(server_->address().rfind(':'));
   const auto other = client::Http2Endpoint::Make(connection_);
   ASSERT_THAT(other, IsOk());

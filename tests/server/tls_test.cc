@@ -1,4 +1,4 @@
-// TLS over a real socket: who is refused, who is known, and files that change while the server
+// TLS over a real socket: refused and accepted clients, and files that change while the server
 // runs.
 #include <filesystem>
 #include <fstream>
@@ -163,7 +163,7 @@ TEST_F(TlsTest, TheServersCertificateIsExchangedWithoutARestart) {
   ASSERT_THAT(MakeCertificates(order), IsOk());
   ASSERT_NE(Read(pki("ca.pem")), old_ca);
   Await([&] { return Get(DialAs("robots/r1")).ok(); });
-  // Of the authority before, nobody is let in any more, also on a connection that is open.
+  // Certificates of the previous authority are refused, also on an open connection.
   Await([&] { return Get(open).error_code() == grpc::StatusCode::UNAUTHENTICATED; });
   EXPECT_THAT(Create("more"), GrpcStatusIs(grpc::StatusCode::UNAVAILABLE, HasSubstr("")));
 }

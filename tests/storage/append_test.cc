@@ -226,7 +226,7 @@ TEST_P(AppendTest, DeletingAJourneyLeavesNothingOfItAndAllOfTheOthers) {
   AppendAll(*store_, kOther, steps);
   ASSERT_THAT(store_->DeleteJourney(kJourney), IsOk());
   EXPECT_TRUE(SameMap(*store_->LoadMap(kOther), MapOf(OddSettings(), steps)));
-  // The row number is free again: what the new journey finds there would be the old one's.
+  // The row number is free again: the new journey must not find the old one's data.
   ASSERT_THAT(store_->CreateJourney(Record(kJourney)), IsOk());
   EXPECT_EQ(store_->LoadMap(kJourney)->step_count(), 0);
   AppendAll(*store_, kJourney, steps);

@@ -16,7 +16,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-// Holds every transaction until let go, and notes its size.
+// Holds every transaction until it is released, and notes its size.
 class HeldStore : public JourneyStore {
  public:
   std::vector<absl::Status> AppendSteps(const std::vector<JourneyAppend>& appends) override {
@@ -128,7 +128,7 @@ TEST(CommitQueue, AfterALargeBatchItWaitsForMore) {
     EXPECT_EQ(called, 1);
     ASSERT_THAT(queue.Submit(JourneyAppend(), done), IsOk());
     while (called < 3) std::this_thread::yield();
-    // What waits when it ends is committed at once.
+    // Waiting appends are committed at once at the end.
     ASSERT_THAT(queue.Submit(JourneyAppend(), done), IsOk());
   }
   EXPECT_EQ(called, 4);

@@ -1,4 +1,4 @@
-// The process dies; what was acknowledged is there.
+// Acknowledged observations survive the death of the process.
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/wait.h>

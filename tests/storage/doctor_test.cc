@@ -1,4 +1,4 @@
-// What the doctor finds and saves in whole, cut and changed files.
+// The doctor's findings and salvage for complete, cut and changed files.
 #include "storage/doctor.h"
 
 #include <gmock/gmock.h>
@@ -95,7 +95,7 @@ TEST_F(DoctorTest, SalvageKeepsAllOfAWholeFile) {
     EXPECT_EQ(after->readers, before->readers);
   }
   EXPECT_THAT(to->GetModel("deviationModels/m"), IsOk());
-  // Recording goes on.
+  // Recording continues.
   JourneyStep next = MakeSteps(kSteps + 1).back();
   EXPECT_THAT(to->AppendSteps({AppendOf(NameOf(1), next)})[0], IsOk());
 }

@@ -44,7 +44,7 @@ class TcpProxy {
   struct Link;
   void Accept();
   void Carry(const std::shared_ptr<Link>& link);
-  // Passes on what came; false: the link is over.
+  // Forwards received data; false: the link has ended.
   bool Pass(Link* link, int from, int to);
 
   std::atomic<std::uint16_t> upstream_port_ = 0;

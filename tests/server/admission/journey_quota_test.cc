@@ -1,4 +1,4 @@
-// What one robot may keep, and for how long.
+// The quota of one robot, and the age limit.
 #include "server/admission/journey_quota.h"
 
 #include "server/base/error_reason.h"

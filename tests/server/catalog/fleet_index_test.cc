@@ -1,5 +1,5 @@
-// Queries over all journeys by the index say what the scan of all maps says, whatever happened to
-// the journeys before.
+// Queries over all journeys give the same answers by the index as by a scan of all maps, after any
+// changes to the journeys.
 #include "server/catalog/fleet_index.h"
 
 #include <algorithm>
@@ -17,7 +17,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-// A store that does not list journeys until it is told to, with what it is told.
+// A store whose ListJourneys blocks until Release, and returns the status given there.
 class HeldStore final : public storage::ForwardingStore {
  public:
   using ForwardingStore::ForwardingStore;
@@ -44,7 +44,7 @@ class HeldStore final : public storage::ForwardingStore {
 
 class FleetIndexTest : public SessionTest {
  protected:
-  // From here on the catalog has an index, which is built from what `from` lists.
+  // Gives the catalog an index, which is built from the journeys that `from` lists.
   void StartIndex(storage::JourneyStore* from) {
     queue_.reset();
     catalog_.reset();

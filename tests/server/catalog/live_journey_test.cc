@@ -189,7 +189,7 @@ TEST_F(LiveJourneyTest, AWriterWhoseTailCannotBeReadIsToldAndMayTryAgain) {
   EXPECT_EQ(ear.AwaitAnswers(1)[0].next_sequence, 10);
 }
 
-// For ThreadSanitizer: several load at once what is being recorded.
+// For ThreadSanitizer: several threads load a journey that is being recorded.
 TEST_F(LiveJourneyTest, ReadersThatComeAtOnceFindAWholeMap) {
   constexpr int kSteps = 30;
   for (int round = 0; round < 5; ++round) {

@@ -27,7 +27,7 @@ TEST_F(StoreServiceTest, AServerOnTheCopyHasTheSameJourneysAndGoesOn) {
   std::string file;
   ASSERT_THAT(BackUp(&file), IsGrpcOk());
   EXPECT_FALSE(std::ifstream(folder_.File("homing.db-backup")).good());
-  // What comes later is not in it.
+  // Later observations are not in the copy.
   RecordFlow(40, 60);
   server_.reset();
   std::ofstream(folder_.File("homing.db"), std::ios::binary | std::ios::trunc) << file;

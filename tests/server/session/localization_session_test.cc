@@ -151,7 +151,7 @@ TEST_F(LocalizationSessionTest, FingerprintsAreMatchedAsTheyAre) {
               StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("nan")));
 }
 
-// For ThreadSanitizer: writers, readers and those who list, finish and take over, all at once.
+// For ThreadSanitizer: writers, readers, lists, finishes and takeovers at the same time.
 TEST_F(LocalizationSessionTest, RecordingAndLocalisingAtOnceLosesNothing) {
   constexpr int kWriters = 3;
   constexpr int kPlaces = 60;

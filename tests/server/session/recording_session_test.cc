@@ -188,7 +188,7 @@ TEST_F(RecordingSessionTest, TheSameWriterTakesOverAndTheOldStreamIsAborted) {
   Ear ear;
   const auto session = Open(&ear).value();
   EXPECT_THAT(old_ear.AwaitEnd(), StatusIs(absl::StatusCode::kAborted, HasSubstr("taken over")));
-  // What the old stream had on its way is counted in.
+  // The old stream's pending observations count.
   EXPECT_EQ(ear.AwaitAnswers(1)[0].next_sequence, 1);
   old_session->Record(test::FlowAt(1, 50), {});
   session->Record(test::FlowAt(1), {});

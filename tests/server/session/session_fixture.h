@@ -1,4 +1,4 @@
-// A store on disk with what the session layer keeps over it, and a listener that can be waited for.
+// A store on disk with the session layer's objects, and a listener that tests can wait for.
 #ifndef TESTS_SERVER_SESSION_SESSION_FIXTURE_H_
 #define TESTS_SERVER_SESSION_SESSION_FIXTURE_H_
 
@@ -21,8 +21,8 @@ namespace homing::server {
 
 inline constexpr char kJourney[] = "robots/r/journeys/out";
 
-// What a recording stream hears; the listener may outlive it. Waits have no time in them: a lost
-// answer is a test that hangs until the runner ends it.
+// The answers of a recording stream; its listener may outlive it. Waits have no timeout: a lost
+// answer makes the test hang until the runner ends it.
 class Ear {
  public:
   RecordingListener Listener() {
