@@ -1,13 +1,13 @@
 #!/bin/sh
-# Which folder may include which, what may appear where, and how long a file may be. Debian keeps the headers of
-# gRPC, SQLite and OpenCV in /usr/include, so that a wrong include compiles: this test is what forbids it.
+# Dependencies between folders, forbidden contents, and the length of files. Debian keeps the headers of
+# gRPC, SQLite and OpenCV in /usr/include, so that a wrong include compiles: this test forbids it.
 #   layering_test.sh [ROOT]        checks the tree
 #   layering_test.sh --self-test   plants one violation of each rule in a scratch tree and expects it to be found
 set -u
 
 max_lines=300
 
-# What one folder's files may include, its subfolders' apart: "FOLDER ALLOWED...". An allowed name that ends in a slash is
+# The includes allowed to one folder's files, without its subfolders: "FOLDER ALLOWED...". An allowed name that ends in a slash is
 # the beginning of an include, another one a folder without its subfolders. Each folder has a rule.
 below_landmark='homing/flow homing/image homing/base'
 below_journey="homing/similarity homing/landmark $below_landmark"
