@@ -143,6 +143,8 @@ absl::StatusOr<CertificateAuthority> CertificateAuthority::Make(const std::strin
 absl::Status CertificateAuthority::Renew(std::chrono::seconds lifetime) {
   CertificateRequest request;
   request.ends_in = lifetime;
+  // The subject is copied below: Blank needs some name.
+  request.common_name = "renewed";
   OpensslPtr<X509> renewed = Blank(request, key_.get());
   if (!renewed ||
       X509_set_subject_name(renewed.get(), X509_get_subject_name(certificate_.get())) != 1) {

@@ -199,7 +199,7 @@ TEST_P(AppendTest, ALandmarkMustHaveTheSideOfItsLastStepHoweverLongAgo) {
   again.step = 39;
   again.fingerprints = {old};
   again.fingerprints[0].side = Side::kRight;
-  ExpectRefused(again, "met on the LEFT");
+  ExpectRefused(again, "RIGHT must be LEFT");
   again.fingerprints[0].side = Side::kLeft;
   AppendAll(*store_, kJourney, {again});
 }
