@@ -100,7 +100,7 @@ TEST_F(CliIdentityTest, WrongOrdersAreRefused) {
       Run({HOMING_SERVER_PROGRAM, "certs", "--out", Path("pki"), "--revoke", "robots/r9"}).code, 1);
   const Ran missing = Run({HOMING_SERVER_PROGRAM, "token", "robots/r", "--out", Path("t")});
   EXPECT_EQ(missing.code, 1);
-  EXPECT_THAT(missing.errors, HasSubstr("tokens is missing"));
+  EXPECT_THAT(missing.errors, HasSubstr("tokens: must name the file"));
 }
 
 }  // namespace
