@@ -104,8 +104,7 @@ absl::Status DrainingError() {
 }
 
 absl::Status IdleError() {
-  return WithReason(absl::UnavailableError("the stream was idle for too long"),
-                    {"IDLE", {}});
+  return WithReason(absl::UnavailableError("the stream was idle for too long"), {"IDLE", {}});
 }
 
 absl::Status BusyError() {
