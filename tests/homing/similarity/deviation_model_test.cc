@@ -58,12 +58,10 @@ TEST(DeviationModelTest, SurvivalKeepsItsDigitsInTheTail) {
 TEST(DeviationModelTest, RefusesWhatIsNoModel) {
   DeviationModel model;
   model.sigma = 0;
-  EXPECT_THAT(Validate(model),
-              StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("sigma is 0")));
+  EXPECT_THAT(Validate(model), StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("sigma: 0")));
   model = {};
   model.mu = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_THAT(Validate(model),
-              StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("mu is nan")));
+  EXPECT_THAT(Validate(model), StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("mu: nan")));
   model = {};
   model.width = -1;
   EXPECT_THAT(Validate(model), StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("width")));

@@ -104,7 +104,7 @@ TEST(DeviationTrainingTest, NamesTheFieldAndTheLimit) {
   options = {};
   options.distance_mean_m = 1;
   EXPECT_THAT(Validate(options),
-              StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("distance_mean_m is 1")));
+              StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("distance_mean_m: 1")));
 }
 
 }  // namespace
