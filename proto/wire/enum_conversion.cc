@@ -49,10 +49,11 @@ absl::StatusOr<Value> ValueOf(const std::array<std::pair<Value, Message>, size>&
     if (known == message) return value;
   }
   const auto* descriptor = google::protobuf::GetEnumDescriptor<Message>();
-  return MustBe(field, static_cast<int>(message),
-                absl::StrJoin(table, ", ", [&](std::string* text, const auto& entry) {
-                  absl::StrAppend(text, descriptor->FindValueByNumber(entry.second)->name());
-                }));
+  return MustBe(
+      field, static_cast<int>(message),
+      absl::StrCat("one of ", absl::StrJoin(table, ", ", [&](std::string* text, const auto& entry) {
+                     absl::StrAppend(text, descriptor->FindValueByNumber(entry.second)->name());
+                   })));
 }
 
 }  // namespace

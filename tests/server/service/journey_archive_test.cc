@@ -176,7 +176,7 @@ TEST(JourneyArchive, RefusesContentThatNoMapHas) {
   ExpectRefused(Forge([](v1::JourneyMap& m) { m.set_counts(0, 0); }), "count");
   ExpectRefused(Forge([](v1::JourneyMap& m) { m.set_landmark_spreads(0, NAN); }), "spread");
   ExpectRefused(Forge([](v1::JourneyMap& m) { m.set_landmark_sides(0, v1::SIDE_UNSPECIFIED); }),
-                "landmark_sides[0] is 0");
+                "landmark_sides[0]: 0");
   ExpectRefused(Forge([](v1::JourneyMap& m) { m.set_end_time_ns(-5); }), "negative");
 }
 
@@ -189,7 +189,7 @@ TEST(JourneyArchive, RefusesSettingsThatAreWrongOrIncomplete) {
       "cell_px");
   ExpectRefused(
       Forge([](v1::JourneyMap& m) { m.mutable_settings()->mutable_left_camera()->set_width(-3); }),
-      "width is -3");
+      "width: -3");
 }
 
 TEST(JourneyArchive, RefusesWhatItDoesNotKnow) {
