@@ -28,7 +28,7 @@ namespace {
 using homing::server::HomingServer;
 using homing::server::ServerCommand;
 
-int Tell(const absl::Status& status) {
+int Report(const absl::Status& status) {
   if (status.ok()) {
     return 0;
   }
@@ -51,7 +51,7 @@ int Serve(const homing::server::ServerOptions& options) {
   homing::RaiseOpenFileLimit();
   const auto server = HomingServer::Start(options);
   if (!server.ok()) {
-    return Tell(server.status());
+    return Report(server.status());
   }
   // One write: a reader of the first line may close the pipe.
   std::string lines = "listening on " + (*server)->address() + "\n";
@@ -77,14 +77,14 @@ int main(int argc, char** argv) {
     case ServerCommand::Action::kExit:
       return command.exit_code;
     case ServerCommand::Action::kHealthCheck:
-      return Tell(homing::server::CheckHealth(command.health_server, command.health_ca,
-                                              command.health_cert, command.health_key));
+      return Report(homing::server::CheckHealth(command.health_server, command.health_ca,
+                                                command.health_cert, command.health_key));
     case ServerCommand::Action::kCerts:
-      return Tell(homing::server::RunCerts(command.certificates));
+      return Report(homing::server::RunCerts(command.certificates));
     case ServerCommand::Action::kToken:
-      return Tell(homing::server::RunToken(command.token, command.options.tokens));
+      return Report(homing::server::RunToken(command.token, command.options.tokens));
     case ServerCommand::Action::kCheckConfig: {
-      const int result = Tell(homing::server::Validate(command.options));
+      const int result = Report(homing::server::Validate(command.options));
       std::cout << (result == 0 ? homing::server::ToToml(command.options) : "");
       return result;
     }

@@ -38,11 +38,11 @@ struct CommitQueue::State {
   bool all_committed HOMING_GUARDED_BY(mutex) = false;
 
   std::thread committing;
-  std::thread telling;
+  std::thread calling_back;
 
   State(JourneyStore* s, const CommitQueueOptions& o) : store(s), options(o) {}
   void Commit();
-  void Tell();
+  void CallBack();
   void Report(const std::vector<absl::Status>& statuses, std::chrono::duration<double> time) const;
   bool TakeBatch(std::vector<JourneyAppend>& batch, std::vector<Done>& done);
 };
@@ -96,7 +96,7 @@ void CommitQueue::State::Commit() {
   ended.NotifyOne();
 }
 
-void CommitQueue::State::Tell() {
+void CommitQueue::State::CallBack() {
   MutexLock lock(mutex);
   while (true) {
     while (!all_committed && committed.empty()) ended.Wait(mutex);
@@ -116,7 +116,7 @@ void CommitQueue::State::Tell() {
 CommitQueue::CommitQueue(JourneyStore* store, const CommitQueueOptions& options)
     : state_(std::make_unique<State>(store, options)) {
   state_->committing = std::thread([state = state_.get()] { state->Commit(); });
-  state_->telling = std::thread([state = state_.get()] { state->Tell(); });
+  state_->calling_back = std::thread([state = state_.get()] { state->CallBack(); });
 }
 
 CommitQueue::~CommitQueue() {
@@ -126,7 +126,7 @@ CommitQueue::~CommitQueue() {
   }
   state_->changed.NotifyOne();
   state_->committing.join();
-  state_->telling.join();
+  state_->calling_back.join();
 }
 
 std::size_t CommitQueue::waiting() const {

@@ -34,7 +34,7 @@ class LandmarkIndex::Finder : public TreeVisitor {
     const Found found{entry.landmark, entry.step, side_,
                       Compare(homing::Of(seen_->x, seen_->y, seen_->count),
                               homing::Of(entry.x, entry.y, entry.count), group_->model)};
-    if (found.similarity.p_t >= least_ && IsCovered(entry.landmark) && LetGoOfWorse(found)) {
+    if (found.similarity.p_t >= least_ && IsCovered(entry.landmark) && DropWorse(found)) {
       Keep(found);
     }
   }
@@ -78,7 +78,7 @@ class LandmarkIndex::Finder : public TreeVisitor {
   }
 
   // False: the landmark was found already, with a step that is not worse.
-  bool LetGoOfWorse(const Found& match) {
+  bool DropWorse(const Found& match) {
     if (!distinct_) {
       return true;
     }

@@ -88,7 +88,7 @@ void Strand::Post(WorkerPool::Task task) {
     }
     scheduled_ = true;
   }
-  GoOn();
+  ScheduleRest();
 }
 
 void Strand::RunOrPost(WorkerPool::Task task) {
@@ -108,10 +108,10 @@ void Strand::RunOrPost(WorkerPool::Task task) {
       return;
     }
   }
-  GoOn();
+  ScheduleRest();
 }
 
-void Strand::GoOn() {
+void Strand::ScheduleRest() {
   pool_->Run([self = shared_from_this()] { self->RunSome(); });
 }
 
@@ -129,7 +129,7 @@ void Strand::RunSome() {
     }
     task();
   }
-  GoOn();
+  ScheduleRest();
 }
 
 }  // namespace homing::server

@@ -57,7 +57,7 @@ class Strand : public std::enable_shared_from_this<Strand> {
 
  private:
   void RunSome();
-  void GoOn();
+  void ScheduleRest();
 
   WorkerPool* const pool_;
   Mutex mutex_;

@@ -111,9 +111,9 @@ ServerCommand ParseCommandLine(int argc, const char* const* argv) {
       ApplyFile(config, &app);
     }
   } catch (const CLI::ParseError& error) {
-    const bool told = error.get_exit_code() == 0;
+    const bool printed = error.get_exit_code() == 0;
     command.action = ServerCommand::Action::kExit;
-    command.exit_code = told ? app.exit(error) : ReportError(error.what());
+    command.exit_code = printed ? app.exit(error) : ReportError(error.what());
     return command;
   } catch (const toml::parse_error& error) {
     command.action = ServerCommand::Action::kExit;
