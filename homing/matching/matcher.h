@@ -62,7 +62,7 @@ class Matcher {
                                       std::int64_t last, const SeenSides& seen, double threshold);
 
  private:
-  // Stored fingerprints that are gone through at a time: what is noted of them stays at hand.
+  // Stored fingerprints tested at a time: their flags fit into the cache.
   static constexpr std::size_t kTile = 256;
 
   // A pair that may reach the threshold.
@@ -77,7 +77,7 @@ class Matcher {
     float most = 0;
   };
 
-  // What is seen on either side of the route, in one row.
+  // The landmarks seen on both sides of the route, in one row.
   struct SeenPlace {
     const SeenLandmark* landmark = nullptr;
     float x = 0;
@@ -103,7 +103,7 @@ class Matcher {
   // Of a tile.
   std::array<const Fingerprint*, kTile> near_;
   std::vector<Candidate> candidates_;
-  // What candidates say of their landmark.
+  // The bounds of candidates, by landmark.
   struct KnownLandmark {
     // Its P_T at least.
     float least = 0;

@@ -96,7 +96,7 @@ TEST(CameraObservationsTest, SeekBeyondTheEndGivesNothing) {
   EXPECT_FALSE(next->has_value());
 }
 
-TEST(CameraObservationsTest, ALiveCameraGoesOnWithABreak) {
+TEST(CameraObservationsTest, ALiveCameraContinuesWithABreak) {
   for (const bool send_flow : {false, true}) {
     Cameras cameras;
     cameras[0] = std::make_unique<LiveCamera>();

@@ -158,7 +158,7 @@ TEST(RpcStatusTest, ReadsTheDelayTheServerNames) {
   EXPECT_TRUE(IsRetriable(status));
 }
 
-TEST(RpcStatusTest, WhatAServerCancelsAsItShutsDownIsRetried) {
+TEST(RpcStatusTest, ACallCancelledByAStoppingServerIsRetried) {
   EXPECT_TRUE(IsRetriable(FromGrpc({grpc::StatusCode::CANCELLED, "CANCELLED"})));
   EXPECT_FALSE(IsRetriable(absl::CancelledError("by a callback")));
 }

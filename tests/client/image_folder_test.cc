@@ -132,7 +132,7 @@ TEST_F(ImageFolderTest, SeekGoesToAnyFrame) {
   EXPECT_FALSE(source->Seek(4));
 }
 
-TEST_F(ImageFolderTest, OpenFrameSourceSaysWhatIsWrong) {
+TEST_F(ImageFolderTest, OpenFrameSourceNamesTheProblem) {
   EXPECT_THAT(OpenFrameSource("", Side::kLeft),
               StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("empty")));
   EXPECT_THAT(OpenFrameSource("sim:nowhere", Side::kLeft),

@@ -136,7 +136,7 @@ TEST_F(LinkTest, BehindAHalfOpenLinkAnotherWriterWaitsForTheLease) {
   link_.CutAll();
 }
 
-TEST_F(LinkTest, AClientThatCrawlsHoldsUpNobody) {
+TEST_F(LinkTest, AVerySlowClientDelaysNoOther) {
   link_.SetBytesPerSecond(20'000);
   std::thread crawling([&] {
     RobotOptions slow = robot_;
@@ -149,7 +149,7 @@ TEST_F(LinkTest, AClientThatCrawlsHoldsUpNobody) {
 }
 
 // A client that sends requests and reads no answers blocks itself, and no other client.
-TEST_F(LinkTest, AClientThatNeverReadsIsHeldBackAndHoldsUpNobody) {
+TEST_F(LinkTest, AClientThatNeverReadsIsBlockedAndDelaysNoOther) {
   constexpr int kMost = 50'000;
   ASSERT_THAT(Create(), IsGrpcOk());
   RecordFlow(0, 20);

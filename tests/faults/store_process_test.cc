@@ -133,7 +133,7 @@ TEST_F(StoreProcessTest, ReadOnlyAfterAKillIsRefusedUntilItWasStartedOnce) {
   EXPECT_EQ(server_.Stop(), 0);
 }
 
-TEST_F(StoreProcessTest, ADamagedFileIsToldAndSalvaged) {
+TEST_F(StoreProcessTest, ADamagedFileIsReportedAndSalvaged) {
   // Enough for pages of their own.
   robot_.observations = 400;
   Start();
@@ -175,7 +175,7 @@ TEST_F(StoreProcessTest, WhereNothingCanBeWrittenItSaysSoAndEnds) {
   EXPECT_THAT(ran.errors, HasSubstr("unable to open database file"));
 }
 
-TEST_F(StoreProcessTest, WhatCannotBeReadIsTriedAgainLater) {
+TEST_F(StoreProcessTest, AFailedReadIsRetriedLater) {
   Start();
   ASSERT_THAT(Record(), IsOk());
   ASSERT_EQ(server_.Stop(), 0);

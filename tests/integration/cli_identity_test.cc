@@ -57,7 +57,7 @@ TEST_F(CliIdentityTest, ARobotRecordsItsOwnJourneysAndNoOthers) {
   EXPECT_THAT(list.lines, ::testing::Contains(HasSubstr("robots/r1/journeys/out")));
 }
 
-TEST_F(CliIdentityTest, WhoDoesNotSpeakTlsIsTold) {
+TEST_F(CliIdentityTest, AClientWithoutTlsGetsAHint) {
   StartServer("homing.db", Tls());
   const Ran plain = Homing({"journeys", "list", "--retry-seconds", "0"});
   EXPECT_EQ(plain.code, 3);

@@ -97,7 +97,7 @@ TEST_P(CliRestartTest, TheClientIsInterruptedAndSaysHowToGoOn) {
   EXPECT_TRUE(Export(kJourney) == expected) << "the maps differ";
 }
 
-TEST_P(CliRestartTest, LocalizingGoesOnWhenTheServerIsKilled) {
+TEST_P(CliRestartTest, LocalizingResumesWhenTheServerIsKilled) {
   StartServer();
   ASSERT_EQ(Run(Record()).code, 0);
   Program localize(

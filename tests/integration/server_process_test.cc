@@ -88,7 +88,7 @@ TEST_F(ServerProcessTest, OffLoopbackWithoutTlsItDoesNotStart) {
   EXPECT_THAT(errors, HasSubstr("loopback address without TLS"));
 }
 
-TEST_F(ServerProcessTest, CheckConfigTellsWhatWouldBeUsedAndTouchesNothing) {
+TEST_F(ServerProcessTest, CheckConfigPrintsTheValuesAndChangesNothing) {
   Program check(Command({"--check-config", "--max-message", "1MiB"}));
   EXPECT_EQ(check.Wait(), 0);
   EXPECT_THAT(check.lines(), ::testing::Contains("max-message = 1048576"));

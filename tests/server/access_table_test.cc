@@ -139,7 +139,7 @@ TEST_P(AccessTableTest, EveryRoleGetsItsRightsOfEveryMethodAndNoMore) {
   }
 }
 
-TEST_P(AccessTableTest, ListsHoldWhatMayBeSeen) {
+TEST_P(AccessTableTest, ListsHoldVisibleJourneysOnly) {
   for (const Row& row : kRows) {
     const bool sees = std::string(row.rights).find('S') != std::string::npos;
     for (const char* parent : {"robots/-", "robots/owner", "robots/guide"}) {
@@ -156,7 +156,7 @@ TEST_P(AccessTableTest, ListsHoldWhatMayBeSeen) {
   EXPECT_THAT(As("robots/reader").List("robots/-"), ElementsAre(kFleet, kListed));
 }
 
-TEST_P(AccessTableTest, AWildcardCoversWhatTheCallerMayRead) {
+TEST_P(AccessTableTest, AWildcardCoversReadableJourneysOnly) {
   EXPECT_THAT(As("robots/other").Localize("robots/-/journeys/-"), IsGrpcOk());
   EXPECT_THAT(As("robots/other").Match("robots/owner/journeys/-"), IsGrpcOk());
   EXPECT_THAT(As("robots/other").Localize("robots/guide/journeys/-"),
@@ -166,7 +166,7 @@ TEST_P(AccessTableTest, AWildcardCoversWhatTheCallerMayRead) {
   EXPECT_THAT(As("robots/owner").Match("robots/-/journeys/private"), IsGrpcOk());
 }
 
-TEST_P(AccessTableTest, NothingIsRecognisedOnWhatTheCallerMayNotRead) {
+TEST_P(AccessTableTest, UnreadableJourneysGiveNoMatch) {
   const ServerOptions guarded = options_;
   options_.tokens.clear();
   options_.roles.clear();
@@ -183,7 +183,7 @@ TEST_P(AccessTableTest, NothingIsRecognisedOnWhatTheCallerMayNotRead) {
   }
 }
 
-TEST_P(AccessTableTest, WhetherAJourneyExistsIsNotToldToThoseWhoMayNotReadIt) {
+TEST_P(AccessTableTest, ARefusalDoesNotRevealWhetherAJourneyExists) {
   const grpc::Status there = As("robots/other").Call(Rpc::kGetJourney, kPrivate);
   const grpc::Status none =
       As("robots/other").Call(Rpc::kGetJourney, "robots/owner/journeys/privatf");
@@ -193,7 +193,7 @@ TEST_P(AccessTableTest, WhetherAJourneyExistsIsNotToldToThoseWhoMayNotReadIt) {
               GrpcStatusIs(grpc::StatusCode::NOT_FOUND, HasSubstr("none")));
 }
 
-TEST_P(AccessTableTest, WhoDoesNotSayWhoTheyAreGetsNothing) {
+TEST_P(AccessTableTest, ACallerWithoutCredentialsGetsNothing) {
   EveryRpc nobody(channel_, "");
   EveryRpc stranger(channel_, "guess");
   EveryRpc thief(channel_, ToText(HashToken(TokenOf("operators/chief"))));

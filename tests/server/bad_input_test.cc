@@ -205,7 +205,7 @@ TEST_F(BadInputTest, AnEmptyRequestAndASecondConfigAreInvalid) {
   EXPECT_THAT(twice.AwaitEnd(), GrpcStatusIs(kInvalid, HasSubstr("must come once")));
 }
 
-TEST_F(BadInputTest, AGapSaysWhichNumberIsDueAndARepeatStoresNothing) {
+TEST_F(BadInputTest, AGapNamesTheExpectedNumberAndARepeatStoresNothing) {
   Recording recording(journeys_.get(), kJourney);
   EXPECT_EQ(recording.Record(test::FlowAt(1, 50)).next_sequence(), 3);
   recording.Send(test::FlowAt(4));
@@ -277,7 +277,7 @@ TEST_F(BadInputTest, AFrameWhoseSizeChangesIsInvalidThoughCamerasMayDiffer) {
   EXPECT_EQ(Get("robots/r/journeys/frames").next_sequence(), 2);
 }
 
-TEST_F(BadInputTest, AClientThatGoesAwayHarmsNoOne) {
+TEST_F(BadInputTest, AClientThatDisconnectsHarmsNoOther) {
   for (int i = 0; i < 20; ++i) {
     grpc::ClientContext context;
     const auto stream = journeys_->RecordJourney(&context);

@@ -111,7 +111,7 @@ TEST_F(LifecycleTest, FramesAndTheFlowVectorsOfThemGiveTheSameFileByteForByte) {
   EXPECT_EQ(lists[0], lists[1]);
 }
 
-TEST_F(LifecycleTest, AfterARestartTheRecordingGoesOnToTheSameFile) {
+TEST_F(LifecycleTest, AfterARestartTheRecordingContinuesToTheSameFile) {
   constexpr int kFrames = 14;
   ASSERT_THAT(Create("whole"), IsGrpcOk());
   {
@@ -140,7 +140,7 @@ TEST_F(LifecycleTest, AfterARestartTheRecordingGoesOnToTheSameFile) {
   EXPECT_EQ(Export(), Export("robots/r/journeys/whole"));
 }
 
-TEST_F(LifecycleTest, ADrainingServerEndsStreamsAsUnavailableAndKeepsWhatItAnswered) {
+TEST_F(LifecycleTest, ADrainingServerEndsStreamsAsUnavailableAndKeepsAcknowledgedSteps) {
   const std::string address = server_->address();
   ASSERT_THAT(CheckHealth(address, ""), IsOk());
   Recording recording(journeys_.get(), kJourney);

@@ -93,7 +93,7 @@ TEST_F(LoadRunTest, LargeMessagesGoThrough) {
   ExpectAllAnswered(Run());
 }
 
-TEST_F(LoadRunTest, WhatAStreamIsRefusedForIsTold) {
+TEST_F(LoadRunTest, TheReasonOfARefusalIsReported) {
   ExpectAllAnswered(Run());
   ASSERT_THAT(Finish("robots/bench0/journeys/load", "bench"), IsGrpcOk());
   const auto again = Run();
@@ -115,7 +115,7 @@ TEST_F(LoadRunTest, AServerThatGoesAwayIsAFailureOfEachRobot) {
   EXPECT_FALSE(result->counts.status.ok());
 }
 
-TEST_F(LoadRunTest, NobodyAtTheAddressIsUnavailable) {
+TEST_F(LoadRunTest, AnAddressWithoutAServerIsUnavailable) {
   address_ = "127.0.0.1:1";
   connection_.connect_timeout = std::chrono::milliseconds(500);
   EXPECT_THAT(Run().status(), StatusIs(absl::StatusCode::kUnavailable, HasSubstr("127.0.0.1:1")));

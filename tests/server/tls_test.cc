@@ -92,7 +92,7 @@ TEST_F(TlsTest, PlainTextIsRefused) {
   EXPECT_EQ(Get(plain).error_code(), grpc::StatusCode::UNAVAILABLE);
 }
 
-TEST_F(TlsTest, WithoutACertificateNobodyConnects) {
+TEST_F(TlsTest, WithoutACertificateNoClientConnects) {
   const std::string ca = Read(pki("ca.pem"));
   EXPECT_EQ(Get(Dial({}, ca)).error_code(), grpc::StatusCode::UNAVAILABLE);
   EXPECT_FALSE(CheckHealth(server_->address(), pki("ca.pem")).ok());
@@ -138,7 +138,7 @@ TEST_F(TlsTest, ARevokedRobotIsCutOffThoughItsConnectionIsOpen) {
   EXPECT_THAT(Get(channel), GrpcStatusIs(grpc::StatusCode::UNAUTHENTICATED, HasSubstr("revoked")));
 }
 
-TEST_F(TlsTest, ACertificateWithoutAnIdentityIsNobody) {
+TEST_F(TlsTest, ACertificateWithoutAnIdentityIsRefused) {
   const std::string ca = Read(pki("ca.pem"));
   for (const std::vector<std::string>& names : {std::vector<std::string>{},
                                                 {"DNS:robots"},
@@ -188,7 +188,7 @@ TEST_F(TlsTest, WithTokensACertificateMayBeMissingButNotAnothers) {
             grpc::StatusCode::UNAVAILABLE);
 }
 
-TEST_F(TlsTest, BadFilesAreToldAtTheStart) {
+TEST_F(TlsTest, BadFilesAreReportedAtTheStart) {
   options_.listen = "127.0.0.1:0";
   options_.database = "sqlite:" + folder_.File("other.db");
   ServerOptions bad = options_;

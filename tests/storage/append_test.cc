@@ -164,7 +164,7 @@ TEST_P(AppendTest, RefusesAnotherKindOfInput) {
               StatusIs(absl::StatusCode::kFailedPrecondition, HasSubstr("FLOW_VECTORS")));
 }
 
-TEST_P(AppendTest, RefusesWhatTheMapWouldRefuse) {
+TEST_P(AppendTest, RefusesStepsThatTheMapWouldRefuse) {
   const std::vector<JourneyStep> steps = MakeSteps(12);
   AppendAll(*store_, kJourney, {steps.begin(), steps.begin() + 11});
   const JourneyStep& good = steps[11];

@@ -89,7 +89,7 @@ TEST(CommitQueue, CallsBackOnlyAfterTheCommitInOrderOfSubmission) {
   EXPECT_TRUE(SameMap(*store->LoadMap("j"), MapOf(OddSettings(), steps)));
 }
 
-TEST(CommitQueue, GroupsWhatWaitsRefusesTheRestAndDrains) {
+TEST(CommitQueue, GroupsWaitingAppendsRefusesTheRestAndDrains) {
   HeldStore store;
   int called = 0;
   absl::Status last;

@@ -21,7 +21,7 @@ namespace {
   }
 }
 
-TEST(Crash, WhatWasAcknowledgedSurvivesAKill) {
+TEST(Crash, AcknowledgedStepsSurviveAKill) {
   const TemporaryFolder folder;
   ASSERT_THAT(OpenOrDie(folder.Database())->CreateJourney(Record(kJourney)), IsOk());
   std::int64_t acknowledged = -1;

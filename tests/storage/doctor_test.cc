@@ -117,7 +117,7 @@ TEST_F(DoctorTest, OneDamagedJourneyDoesNotTakeTheOthersAlong) {
   EXPECT_THAT(*store->ListJourneys("robots/", "", 100), SizeIs(kJourneys - 1));
 }
 
-TEST_F(DoctorTest, ATruncatedFileIsToldAndWhatIsWholeIsSaved) {
+TEST_F(DoctorTest, ATruncatedFileIsReportedAndCompleteJourneysAreSaved) {
   const auto size = std::filesystem::file_size(path_);
   for (const std::uintmax_t share : {9, 7, 5, 3}) {
     std::filesystem::remove(saved_);
@@ -153,7 +153,7 @@ TEST_F(DoctorTest, FlippedBitsCrashNothing) {
   EXPECT_GT(saved_journeys, 0);
 }
 
-TEST_F(DoctorTest, WhatIsNoDatabaseIsSaidToBeNone) {
+TEST_F(DoctorTest, AFileThatIsNoDatabaseIsReported) {
   std::ofstream(path_) << std::string(8192, 'x');
   EXPECT_THAT(Examine(path_), StatusIs(absl::StatusCode::kDataLoss, HasSubstr("not a database")));
   EXPECT_THAT(Examine(folder_.File("none.db")),

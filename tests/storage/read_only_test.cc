@@ -108,7 +108,7 @@ TEST_F(ReadOnlyTest, AnOlderOrNewerSchemaIsRefusedAndLeft) {
   }
 }
 
-TEST_F(ReadOnlyTest, AFileThatIsNotThereIsToldAndNotMade) {
+TEST_F(ReadOnlyTest, AMissingFileIsReportedAndNotCreated) {
   StoreOptions options;
   options.url = "sqlite:" + folder_.File("none.db");
   options.read_only = true;

@@ -7,7 +7,7 @@
 namespace homing {
 namespace {
 
-TEST(LandmarkIndexSweepTest, WhatIsSweptMakesRoom) {
+TEST(LandmarkIndexSweepTest, SweptJourneysFreeTheirMemory) {
   LandmarkIndex index;
   std::size_t bytes = 0;
   for (int round = 0; round < 20; ++round) {
@@ -30,7 +30,7 @@ TEST(LandmarkIndexSweepTest, WhatIsSweptMakesRoom) {
   EXPECT_LT(index.MemoryBytes(), 2 * bytes);
 }
 
-TEST(LandmarkIndexSweepTest, NumbersOfWhatIsSweptAreGivenOutAgain) {
+TEST(LandmarkIndexSweepTest, NumbersOfSweptJourneysAreReused) {
   LandmarkIndex index;
   std::size_t bytes = 0;
   for (int round = 0; round < 3'000; ++round) {

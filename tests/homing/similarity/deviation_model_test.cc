@@ -55,7 +55,7 @@ TEST(DeviationModelTest, SurvivalKeepsItsDigitsInTheTail) {
   EXPECT_NEAR(Survival(model, std::exp(10.0)) / 7.6198530241605260660e-24, 1, 1e-12);
 }
 
-TEST(DeviationModelTest, RefusesWhatIsNoModel) {
+TEST(DeviationModelTest, RefusesInvalidModels) {
   DeviationModel model;
   model.sigma = 0;
   EXPECT_THAT(Validate(model), StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("sigma: 0")));

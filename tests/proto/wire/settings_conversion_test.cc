@@ -50,7 +50,7 @@ TEST(SettingsConversion, EverySettingComesBack) {
   EXPECT_TRUE(*back == settings);
 }
 
-TEST(SettingsConversion, WhatIsUnsetIsTakenFromTheDefaults) {
+TEST(SettingsConversion, UnsetFieldsHaveTheDefaults) {
   const JourneySettings defaults = OddSettings();
   const auto settings = FromProto(v1::JourneySettings(), "settings", defaults);
   ASSERT_THAT(settings, IsOk());

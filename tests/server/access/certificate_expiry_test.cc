@@ -56,7 +56,7 @@ TEST_F(CertificateExpiryTest, WarnsThirtyDaysAhead) {
   EXPECT_THAT(ExpiryWarning(expiry, 100 * kDayS), HasSubstr("has ended"));
 }
 
-TEST_F(CertificateExpiryTest, ARenewedAuthorityVouchesForWhatItSignedBefore) {
+TEST_F(CertificateExpiryTest, CertificatesStayValidWhenTheAuthorityIsRenewed) {
   order_.ca_days = 1;
   ASSERT_THAT(MakeCertificates(order_), IsOk());
   const std::string robot = ReadFile(Path("robots/r1.pem")).value();

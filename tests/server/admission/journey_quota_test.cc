@@ -51,7 +51,7 @@ TEST_F(JourneyQuotaTest, AtTheLimitANewJourneyIsRefusedAndOneThatIsThereIsNot) {
   EXPECT_TRUE(IsThere("a"));
 }
 
-TEST_F(JourneyQuotaTest, OnlyWhenToldToTheOldestFinishedOneMakesRoom) {
+TEST_F(JourneyQuotaTest, WithDeleteOldestTheOldestFinishedOneIsDeleted) {
   limits_.max_robot_journeys = 3;
   limits_.delete_oldest = true;
   JourneyQuota quota(catalog_.get(), limits_);
@@ -90,7 +90,7 @@ TEST_F(JourneyQuotaTest, BytesAreThoseOfFingerprintsAndProfiles) {
   EXPECT_EQ(ReasonOf(full.CheckNew(Name("more"))).reason, "ROBOT_BYTES");
 }
 
-TEST_F(JourneyQuotaTest, FinishedJourneysPastTheirTimeAreDeletedOnlyWhenToldTo) {
+TEST_F(JourneyQuotaTest, WithDeleteAfterOldFinishedJourneysAreDeleted) {
   constexpr std::int64_t kSecond = 1'000'000'000;
   Make("old", 10 * kSecond, true);
   Make("new", 20 * kSecond, true);

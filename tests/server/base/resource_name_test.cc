@@ -43,7 +43,7 @@ TEST(ResourceNameTest, TheWildcardIsAllowedInPatternsOnly) {
               StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("parent")));
 }
 
-TEST(ResourceNameTest, APatternCoversWhatItNames) {
+TEST(ResourceNameTest, APatternCoversTheNamesItMatches) {
   const JourneyName journey{"r", "j"};
   EXPECT_TRUE(Covers({"-", "-"}, journey));
   EXPECT_TRUE(Covers({"r", "-"}, journey));

@@ -106,7 +106,7 @@ class FleetIndexTest : public SessionTest {
   std::unique_ptr<FleetIndex> index_;
 };
 
-TEST_F(FleetIndexTest, AnswersAsTheScanFromWhatIsOnDisk) {
+TEST_F(FleetIndexTest, AnswersAsTheScanFromTheStore) {
   for (int i = 0; i < 4; ++i) Record(absl::StrCat("robots/r", i, "/journeys/j"), 10 + 5 * i);
   StartIndex(store_.get());
   AwaitReady();
@@ -140,7 +140,7 @@ TEST_F(FleetIndexTest, KnowsOfAnImportedJourney) {
   ExpectSameAnswers();
 }
 
-TEST_F(FleetIndexTest, WhatHappensWhileItIsBuiltCountsOnce) {
+TEST_F(FleetIndexTest, ChangesDuringTheBuildCountOnce) {
   Record("robots/r0/journeys/j", 10);
   Record("robots/r1/journeys/gone", 10);
   HeldStore held(store_.get());
@@ -188,7 +188,7 @@ TEST_F(FleetIndexTest, WithoutJourneysThereIsNothingToFind) {
               StatusIs(absl::StatusCode::kNotFound, HasSubstr("no journey")));
 }
 
-TEST_F(SessionTest, MapsThatNoOneUsesMakeRoomForOthers) {
+TEST_F(SessionTest, UnusedMapsAreEvicted) {
   for (int i = 0; i < 3; ++i) {
     const std::string name = absl::StrCat("robots/r", i, "/journeys/j");
     Create(name);

@@ -166,7 +166,7 @@ TEST_F(LiveJourneyTest, OneDeletedWhileItsMapIsLoadedIsNotFoundAlsoIfAnotherTook
   ExpectMapAsStored();
 }
 
-TEST_F(LiveJourneyTest, AWriterWhoseTailCannotBeReadIsToldAndMayTryAgain) {
+TEST_F(LiveJourneyTest, AWriterWhoseTailCannotBeReadGetsAnErrorAndMayRetry) {
   RecordFlow(0, 10);
   StartOver();
   class TaillessStore final : public storage::ForwardingStore {

@@ -104,7 +104,7 @@ TEST_F(ServerOptionsTest, OffLoopbackNeedsTlsOrTheFlagThatSaysSo) {
   EXPECT_THAT(Validate(options), IsOk());
 }
 
-TEST_F(ServerOptionsTest, WhatItPrintsIsAFileThatGivesTheSame) {
+TEST_F(ServerOptionsTest, ItsOutputIsAFileWithTheSameOptions) {
   ServerOptions options;
   options.listen = "127.0.0.1:9";
   options.workers = 3;

@@ -192,7 +192,7 @@ TEST(JourneyArchive, RefusesSettingsThatAreWrongOrIncomplete) {
       "width: -3");
 }
 
-TEST(JourneyArchive, RefusesWhatItDoesNotKnow) {
+TEST(JourneyArchive, RefusesUnknownContent) {
   ExpectRefused(Forge([](v1::JourneyMap& m) {
                   m.GetReflection()->MutableUnknownFields(&m)->AddVarint(1000, 5);
                 }),

@@ -152,7 +152,7 @@ TEST_F(JourneyServiceTest, JourneysAreListedInOrderPageByPage) {
   EXPECT_EQ(BadFieldOf(List("r", 0, "", &page)), "parent");
 }
 
-TEST_F(JourneyServiceTest, ADeletedJourneyIsGoneAndItsWriterAborted) {
+TEST_F(JourneyServiceTest, ADeletedJourneyIsNotFoundAndItsWriterAborted) {
   ASSERT_THAT(Create(), IsGrpcOk());
   Recording recording(journeys_.get(), kJourney);
   recording.Record(test::FlowAt(0));
@@ -179,7 +179,7 @@ TEST_F(JourneyServiceTest, FinishingIsIdempotentAndOnlyForTheWriterWhileItsLease
   EXPECT_THAT(Finish("robots/r/journeys/lapsed", ""), IsGrpcOk());
 }
 
-TEST_F(JourneyServiceTest, AliasingIsToldOfAMapWithProfiles) {
+TEST_F(JourneyServiceTest, AliasingIsReportedForAMapWithProfiles) {
   ASSERT_THAT(Create(), IsGrpcOk());
   v1::AnalyzeAliasingRequest request;
   request.set_name(kJourney);

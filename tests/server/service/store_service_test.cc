@@ -20,7 +20,7 @@ class StoreServiceTest : public ServerTest {
   }
 };
 
-TEST_F(StoreServiceTest, AServerOnTheCopyHasTheSameJourneysAndGoesOn) {
+TEST_F(StoreServiceTest, AServerOnTheCopyHasTheSameJourneysAndContinues) {
   ASSERT_THAT(Create(), IsGrpcOk());
   RecordFlow(0, 40);
   const std::string exported = Export();
@@ -38,7 +38,7 @@ TEST_F(StoreServiceTest, AServerOnTheCopyHasTheSameJourneysAndGoesOn) {
   EXPECT_EQ(Get().next_sequence(), 50);
 }
 
-TEST_F(StoreServiceTest, RecordingGoesOnWhileACopyIsTaken) {
+TEST_F(StoreServiceTest, RecordingContinuesDuringABackup) {
   ASSERT_THAT(Create(), IsGrpcOk());
   RecordFlow(0, 10);
   auto copies = std::async(std::launch::async, [this] {

@@ -71,7 +71,7 @@ TEST_F(RecordingSessionTest, TimesInMemoryAreThoseOnDisk) {
   EXPECT_EQ(live.end_time_ns, stored.end_time_ns);
 }
 
-TEST_F(RecordingSessionTest, AGapSaysWhichNumberIsDueAfterTheAnswersBefore) {
+TEST_F(RecordingSessionTest, AGapNamesTheExpectedNumberAfterEarlierAnswers) {
   Ear ear;
   const auto session = Open(&ear).value();
   session->Record(test::FlowAt(0), {});
@@ -218,7 +218,7 @@ TEST_F(RecordingSessionTest, AFinishedJourneyTakesNoWriter) {
   EXPECT_THAT(Open(&ear), StatusIs(absl::StatusCode::kFailedPrecondition, HasSubstr("finished")));
 }
 
-TEST_F(RecordingSessionTest, FinishingEndsTheStreamAfterWhatIsOnItsWay) {
+TEST_F(RecordingSessionTest, FinishingEndsTheStreamAfterPendingAnswers) {
   Ear ear;
   const auto session = Open(&ear).value();
   for (int i = 0; i < 20; ++i) {
@@ -279,7 +279,7 @@ TEST_F(RecordingSessionTest, AnUnknownJourneyIsNotFoundAndABadNameInvalid) {
               StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("config.writer_id")));
 }
 
-TEST_F(RecordingSessionTest, ABadObservationEndsTheStreamAndTheNextGoesOn) {
+TEST_F(RecordingSessionTest, ABadObservationEndsTheStreamAndTheNextStreamContinues) {
   {
     Ear ear;
     const auto session = Open(&ear).value();
