@@ -30,8 +30,10 @@ struct DecodeLimits {
 };
 
 // Grey image, CV_8UC1, height x width; it owns its pixels. Colour is reduced by
-// 0.299 R + 0.587 G + 0.114 B. INVALID_ARGUMENT: dimensions outside the limits or unlike the
-// header, wrong buffer length, bytes that are no image or end too early. Thread-safe.
+// 0.299 R + 0.587 G + 0.114 B. Grey of 16 bits is stretched to the range that it uses. JPEG and PNG
+// are turned as their EXIF orientation says, so width and height may change places.
+// INVALID_ARGUMENT: dimensions outside the limits or unlike the header, wrong buffer length, bytes
+// that are no image or end too early. Thread-safe.
 absl::StatusOr<cv::Mat> DecodeGray(const Frame& frame, const DecodeLimits& limits = {});
 
 }  // namespace homing
