@@ -4,6 +4,7 @@
 #ifndef STORAGE_CHECKPOINTER_H_
 #define STORAGE_CHECKPOINTER_H_
 
+#include <atomic>
 #include <condition_variable>
 #include <memory>
 #include <mutex>
@@ -25,6 +26,12 @@ class Checkpointer {
                                                              Connection* writer,
                                                              std::mutex* write_mutex,
                                                              int busy_timeout_ms);
+  // As of the last commit.
+  int pages_in_log() const { return pages_in_log_; }
+  // As SQLite knows it now: another program may have moved the log into the file. -1: unknown.
+  // Thread-safe.
+  int CountPagesInLog();
+
   // Ends what it does.
   ~Checkpointer();
   Checkpointer(const Checkpointer&) = delete;
@@ -39,6 +46,9 @@ class Checkpointer {
   // Pages that are still to be moved when it returns; negative: it could not be done.
   int Move();
 
+  std::atomic<int> pages_in_log_ = 0;
+  // While connection_ is used.
+  std::mutex connection_mutex_;
   const std::unique_ptr<Connection> connection_;
   Connection* const writer_;
   std::mutex* const write_mutex_;

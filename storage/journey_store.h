@@ -83,6 +83,9 @@ class JourneyStore {
   virtual absl::Status FinishJourney(const std::string& name) = 0;
   // The writer changed. NOT_FOUND.
   virtual absl::Status SetWriter(const std::string& name, const std::string& writer_id) = 0;
+  // NOT_FOUND.
+  virtual absl::Status SetReaders(const std::string& name,
+                                  const std::vector<std::string>& readers) = 0;
   // Appends to any number of journeys in ONE transaction; the status of each (a journey gone,
   // finished, or a sequence that is not next: NOT_FOUND, FAILED_PRECONDITION, OUT_OF_RANGE for that
   // one only). When the transaction itself fails, every entry has its error and nothing is stored.

@@ -2,6 +2,7 @@
 #ifndef STORAGE_SQLITE_JOURNEY_STORE_H_
 #define STORAGE_SQLITE_JOURNEY_STORE_H_
 
+#include <chrono>
 #include <functional>
 #include <memory>
 #include <mutex>
@@ -10,6 +11,7 @@
 
 #include "storage/checkpointer.h"
 #include "storage/connection.h"
+#include "storage/file_identity.h"
 #include "storage/journey_store.h"
 #include "storage/query_connections.h"
 #include "storage/step_appends.h"
@@ -40,6 +42,8 @@ class SqliteJourneyStore final : public JourneyStore {
   absl::Status DeleteJourney(const std::string& name) override;
   absl::Status FinishJourney(const std::string& name) override;
   absl::Status SetWriter(const std::string& name, const std::string& writer_id) override;
+  absl::Status SetReaders(const std::string& name,
+                          const std::vector<std::string>& readers) override;
   std::vector<absl::Status> AppendSteps(const std::vector<JourneyAppend>& appends) override;
   absl::StatusOr<JourneyMap> LoadMap(const std::string& name) override;
   absl::StatusOr<JourneyTail> LoadTail(const std::string& name) override;
@@ -57,7 +61,11 @@ class SqliteJourneyStore final : public JourneyStore {
   // In one transaction: what changes more than appends do, which then read their rows again.
   absl::Status Write(const Body& body);
   absl::Status Transact(const Body& body);
-  // REQUIRES write_mutex_.
+  // The files are those that were opened. A store in memory has none.
+  absl::Status CheckFiles();
+  void NoteLogPages(int pages);
+  // After damage: whether the whole file passes SQLite's check again. It is tried now and then.
+  bool IsHealed();
   void NoteHealth(const absl::Status& written, bool changed);
   absl::Status Read(const Body& body);
   // What `query` gives in one read transaction.
@@ -75,6 +83,9 @@ class SqliteJourneyStore final : public JourneyStore {
   std::mutex health_mutex_;
   // Guarded by health_mutex_, so that asking never waits for a write.
   absl::Status write_health_;
+  std::chrono::steady_clock::time_point next_check_;
+  std::unique_ptr<FileIdentity> files_;
+  std::int64_t page_bytes_ = 0;
   std::unique_ptr<QueryConnections> queries_;
   // Ends before the writer.
   std::unique_ptr<Checkpointer> checkpointer_;
