@@ -46,8 +46,8 @@ class JourneyCatalog {
   // Null: there is none.
   FleetIndex* index() const { return index_; }
 
-  // Creates; or, when a journey of that name is active, of the same writer_id (not empty) and of
-  // the same settings, returns that one. ALREADY_EXISTS.
+  // Creates; or, when a journey of that name is active, of the same writer_id (not empty), settings
+  // and readers (in any order), returns that one. ALREADY_EXISTS.
   absl::StatusOr<storage::JourneyRecord> Create(const storage::JourneyRecord& record);
   // As in memory when it is there, else as on disk. NOT_FOUND.
   absl::StatusOr<storage::JourneyRecord> Get(const std::string& name);
@@ -58,10 +58,14 @@ class JourneyCatalog {
                                                            const JourneyFilter& filter = nullptr);
   // An active writer's stream ends ABORTED. NOT_FOUND.
   absl::Status Delete(const std::string& name);
-  // An active writer's stream ends FAILED_PRECONDITION. NOT_FOUND; ABORTED: `writer_id` is not that
-  // of the lease that lives.
+  // An active writer's stream ends FAILED_PRECONDITION. NOT_FOUND; ABORTED, unless `force`:
+  // `writer_id` is not that of the lease that lives, or it is empty and a stream records.
   absl::StatusOr<storage::JourneyRecord> Finish(const std::string& name,
-                                                const std::string& writer_id, TimePoint now);
+                                                const std::string& writer_id, bool force,
+                                                TimePoint now);
+  // NOT_FOUND.
+  absl::StatusOr<storage::JourneyRecord> SetReaders(const std::string& name,
+                                                    const std::vector<std::string>& readers);
   // ALREADY_EXISTS, INVALID_ARGUMENT.
   absl::StatusOr<storage::JourneyRecord> Import(const storage::JourneyRecord& record,
                                                 const JourneyMap& map);

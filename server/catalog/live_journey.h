@@ -65,6 +65,11 @@ class LiveJourney {
   // disk.
   void EvictWriter(const absl::Status& reason);
   // ABORTED: another writer's lease lives.
+  // ABORTED: a stream records it.
+  absl::Status CheckNoStream(TimePoint now) const;
+  // The stream of a claim has ended.
+  void EndStream(std::uint64_t claim);
+  void SetReaders(const std::vector<std::string>& readers);
   absl::Status CheckWriter(const std::string& writer_id, TimePoint now) const;
   void MarkFinished();
   void MarkDeleted();

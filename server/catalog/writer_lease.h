@@ -26,7 +26,8 @@ class WriterLease {
   // Ends the stream of a writer with the given error.
   using Evict = std::function<void(absl::Status)>;
 
-  // ABORTED: another writer's lease lives at `now`.
+  // ABORTED: another program's lease lives at `now`. What stands behind "#" in a writer_id says
+  // what the program records from, not which program it is.
   absl::Status CheckFree(const std::string& writer_id, TimePoint now) const;
   // A new claim, which ends the claim before; its evict is handed out to be called.
   // REQUIRES: CheckFree(writer_id, now).ok().
@@ -34,6 +35,10 @@ class WriterLease {
   // Whether `claim` is the present one.
   bool Holds(std::uint64_t claim) const { return active_ && claim == claim_; }
   void Renew(TimePoint now) { renewed_ = now; }
+  // The claim's stream has ended; the lease lives on.
+  void EndStream(std::uint64_t claim) { open_ = open_ && claim != claim_; }
+  // ABORTED: a stream of a lease that lives is open.
+  absl::Status CheckNoStream(TimePoint now) const;
   // Ends the claim and the lease; hands out the evict of the claim ended.
   Evict Release();
 
@@ -41,6 +46,7 @@ class WriterLease {
   std::string writer_id_;
   std::uint64_t claim_ = 0;
   bool active_ = false;
+  bool open_ = false;
   TimePoint renewed_;
   Evict evict_;
 };

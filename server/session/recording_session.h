@@ -57,6 +57,10 @@ class RecordingSession : public std::enable_shared_from_this<RecordingSession> {
                                                                 TimePoint now,
                                                                 RecordingListener listener);
 
+  ~RecordingSession();
+  RecordingSession(const RecordingSession&) = delete;
+  RecordingSession& operator=(const RecordingSession&) = delete;
+
   // One answer or the end comes of it, after those of the observations before.
   void Record(const Observation& observation, TimePoint now);
   // Ends the session with `status` after the answers to the observations before.

@@ -96,7 +96,7 @@ TEST_F(JourneyServiceTest, WrongFieldsOfCreateAreNamed) {
   EXPECT_EQ(BadFieldOf(CreateWith(request)), "writer_id");
   request = Request();
   request.mutable_journey()->add_readers("everyone");
-  EXPECT_EQ(BadFieldOf(CreateWith(request)), "journey.readers");
+  EXPECT_EQ(BadFieldOf(CreateWith(request)), "journey.readers[0]");
   request = Request();
   request.mutable_journey()->mutable_settings()->mutable_left_camera()->set_width(-5);
   EXPECT_THAT(CreateWith(request), GrpcStatusIs(kInvalid, HasSubstr("-5")));
