@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "server/rpc/incoming_call.h"
+#include "server/rpc/read_mark.h"
 #include "server/rpc/service_core.h"
 #include "server/rpc/status_conversion.h"
 #include "server/rpc/stream_registry.h"
@@ -41,9 +42,7 @@ class BidiStream : public grpc::ServerBidiReactor<Request, Response>,
   void Open() {
     self_ = this->shared_from_this();
     absl::Status admitted = call_.EnterStream();
-    if (!core_->streams.Add(self_)) {
-      admitted = DrainingError();
-    }
+    if (!core_->streams.Add(self_)) admitted = DrainingError();
     const std::lock_guard lock(mutex_);
     if (admitted.ok()) {
       ReadNext();
@@ -53,9 +52,7 @@ class BidiStream : public grpc::ServerBidiReactor<Request, Response>,
     }
   }
 
-  void Drain() override {
-    strand_->Post([self = this->shared_from_this()] { self->HandleDrain(); });
-  }
+  void Drain() override { PostEnd(DrainingError()); }
 
   void Tick() override {
     if (const absl::Status status = call_.CheckIdentity(); !status.ok()) {
@@ -84,6 +81,11 @@ class BidiStream : public grpc::ServerBidiReactor<Request, Response>,
       if (!ok) {
         reading_ = false;
         half_closed_ = true;
+        if (IsUndecodable(*incoming_)) {
+          // Keeps its place behind the requests before, which are answered first.
+          unanswered_.push_back(0);
+          PostEnd(UndecodableError(*incoming_));
+        }
         FinishIfOver();
         return;
       }
@@ -145,18 +147,16 @@ class BidiStream : public grpc::ServerBidiReactor<Request, Response>,
  protected:
   // One at a time, in order. Each request comes to one Answer, one NoAnswer or an End.
   virtual absl::Status Handle(const Request& request) = 0;
-  virtual void HandleDrain() { End(DrainingError()); }
-  // Let go of what belongs to the stream.
-  virtual void HandleDone() {}
+  // Ends the stream after the answers to the requests before.
+  virtual void EndInTurn(const absl::Status& status) { End(status); }
+  virtual void HandleDone() {}  // Frees what belongs to the stream.
 
   // Any thread. `fill` is given an empty answer: one that was sent, whose memory is used again. It
   // is not called if no answer can be given any more.
   template <typename Fill>
   void Answer(Fill fill) {
     const std::lock_guard lock(mutex_);
-    if (end_status_ || finished_) {
-      return;
-    }
+    if (end_status_ || finished_) return;
     if (spare_.empty()) spare_.emplace_back();
     writes_.splice(writes_.end(), spare_, spare_.begin());
     fill(&writes_.back());
@@ -196,6 +196,10 @@ class BidiStream : public grpc::ServerBidiReactor<Request, Response>,
   // A stream whose messages, two in a row, were awaited for longer: longer than most answers take.
   static constexpr std::chrono::milliseconds kUnhurried{5};
 
+  void PostEnd(const absl::Status& status) {
+    strand_->Post([self = this->shared_from_this(), status] { self->EndInTurn(status); });
+  }
+
   void HandleGuarded(const Request& request) {
     {
       const std::lock_guard lock(mutex_);
@@ -222,6 +226,7 @@ class BidiStream : public grpc::ServerBidiReactor<Request, Response>,
     reading_ = true;
     read_begin_ = std::chrono::steady_clock::now();
     incoming_ = std::make_shared<Request>();
+    MarkUnread(incoming_.get());
     this->StartRead(incoming_.get());
   }
 

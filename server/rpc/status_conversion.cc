@@ -11,6 +11,7 @@
 #include "absl/strings/str_cat.h"
 #include "google/rpc/error_details.pb.h"
 #include "server/base/error_reason.h"
+#include "server/rpc/field_path.h"
 
 namespace homing::server {
 namespace {
@@ -58,30 +59,18 @@ void AddRetryInfo(const absl::Status& status, google::rpc::Status* details) {
   details->add_details()->PackFrom(retry);
 }
 
-// "left: frame.width is 0, must be ..." is about left.frame.width.
-std::string FieldOf(const std::string& message) {
-  std::string field;
-  std::size_t begin = 0;
-  std::size_t end = message.find(' ');
-  while (end != std::string::npos && end > begin && message[end - 1] == ':') {
-    field += message.substr(begin, end - 1 - begin) + ".";
-    begin = end + 1;
-    end = message.find(' ', begin);
-  }
-  return field + message.substr(begin, end == std::string::npos ? end : end - begin);
-}
-
-void AddBadRequest(const std::string& message, google::rpc::Status* details) {
+void AddBadRequest(const std::string& message, const google::protobuf::Descriptor* request,
+                   google::rpc::Status* details) {
   google::rpc::BadRequest bad;
   auto* violation = bad.add_field_violations();
-  violation->set_field(FieldOf(message));
+  if (request != nullptr) violation->set_field(FieldPath(message, *request));
   violation->set_description(message);
   details->add_details()->PackFrom(bad);
 }
 
 }  // namespace
 
-grpc::Status ToGrpcStatus(const absl::Status& status) {
+grpc::Status ToGrpcStatus(const absl::Status& status, const google::protobuf::Descriptor* request) {
   if (status.ok()) {
     return grpc::Status::OK;
   }
@@ -93,7 +82,7 @@ grpc::Status ToGrpcStatus(const absl::Status& status) {
     AddRetryInfo(status, &details);
   }
   if (absl::IsInvalidArgument(status)) {
-    AddBadRequest(details.message(), &details);
+    AddBadRequest(details.message(), request, &details);
   }
   return {static_cast<grpc::StatusCode>(status.code()), details.message(),
           details.SerializeAsString()};

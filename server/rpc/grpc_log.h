@@ -1,0 +1,14 @@
+// What gRPC itself logs.
+#ifndef SERVER_RPC_GRPC_LOG_H_
+#define SERVER_RPC_GRPC_LOG_H_
+
+namespace homing::server {
+
+// Sends gRPC's own lines to the server's log, a few a minute: whoever reaches the port causes them
+// (failed handshakes, requests that cannot be decoded), before any token is looked at. What is left
+// out is counted in the next line. Before gRPC is used.
+void LimitLogOfGrpc();
+
+}  // namespace homing::server
+
+#endif  // SERVER_RPC_GRPC_LOG_H_
