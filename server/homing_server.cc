@@ -30,6 +30,9 @@ namespace {
 
 // Clients may ping as often as this.
 constexpr int kMinPingIntervalMs = 5'000;
+constexpr int kMaxConnectionStreams = 65'536;
+// A token and what proxies add take a few hundred.
+constexpr int kMaxHeaderBytes = 8'192;
 
 // The library adds its plugin to every server of a process that links it.
 class WithoutReflection : public grpc::ServerBuilderOption {
@@ -66,6 +69,12 @@ void Configure(const ServerOptions& options, grpc::ServerBuilder* builder) {
   builder->AddChannelArgument(GRPC_ARG_HTTP2_MIN_RECV_PING_INTERVAL_WITHOUT_DATA_MS,
                               kMinPingIntervalMs);
   builder->AddChannelArgument(GRPC_ARG_KEEPALIVE_PERMIT_WITHOUT_CALLS, 1);
+  // What one connection may open and send is announced to it.
+  builder->AddChannelArgument(GRPC_ARG_MAX_CONCURRENT_STREAMS,
+                              options.limits.max_streams > 0
+                                  ? static_cast<int>(options.limits.max_streams)
+                                  : kMaxConnectionStreams);
+  builder->AddChannelArgument(GRPC_ARG_MAX_METADATA_SIZE, kMaxHeaderBytes);
   if (options.limits.memory_quota > 0) {
     grpc::ResourceQuota quota("homing");
     quota.Resize(static_cast<std::size_t>(options.limits.memory_quota));
@@ -183,6 +192,12 @@ absl::StatusOr<std::unique_ptr<HomingServer>> HomingServer::Start(
   state->housekeeping =
       std::make_unique<Housekeeping>(state->core.get(), std::chrono::seconds(options.reload_s));
   return std::unique_ptr<HomingServer>(new HomingServer(std::move(state)));
+}
+
+void HomingServer::Reload() {
+  if (state_->housekeeping) {
+    state_->housekeeping->Reload();
+  }
 }
 
 void HomingServer::Drain() {

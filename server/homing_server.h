@@ -30,6 +30,8 @@ class HomingServer {
   // Health says NOT_SERVING, streams end with UNAVAILABLE, what waits for the disk is written, the
   // store is closed. Idempotent.
   void Drain();
+  // Reads certificates, tokens and roles again at once.
+  void Reload();
 
  private:
   struct State;

@@ -13,6 +13,7 @@
 #include "server/config/server_options.h"
 #include "server/config/store_commands.h"
 #include "server/homing_server.h"
+#include "server/rpc/grpc_log.h"
 #include "server/process/lock_checks.h"
 #include "server/process/open_files.h"
 
@@ -40,6 +41,7 @@ sigset_t BlockStopSignals() {
   sigemptyset(&signals);
   sigaddset(&signals, SIGTERM);
   sigaddset(&signals, SIGINT);
+  sigaddset(&signals, SIGHUP);
   pthread_sigmask(SIG_BLOCK, &signals, nullptr);
   return signals;
 }
@@ -47,6 +49,7 @@ sigset_t BlockStopSignals() {
 int Serve(const homing::server::ServerOptions& options) {
   const sigset_t signals = BlockStopSignals();
   homing::RaiseOpenFileLimit();
+  homing::server::LimitLogOfGrpc();
   const auto server = HomingServer::Start(options);
   if (!server.ok()) {
     return Tell(server.status());
@@ -58,7 +61,10 @@ int Serve(const homing::server::ServerOptions& options) {
   }
   std::cout << lines << std::flush;
   int signal = 0;
-  sigwait(&signals, &signal);
+  while (sigwait(&signals, &signal) == 0 && signal == SIGHUP) {
+    spdlog::info("SIGHUP: reading certificates, tokens and roles again");
+    (*server)->Reload();
+  }
   spdlog::info("signal {}: draining", signal);
   (*server)->Drain();
   spdlog::info("stopped");
@@ -75,8 +81,9 @@ int main(int argc, char** argv) {
     case ServerCommand::Action::kExit:
       return command.exit_code;
     case ServerCommand::Action::kHealthCheck:
-      return Tell(homing::server::CheckHealth(command.health_server, command.health_ca,
-                                              command.health_cert, command.health_key));
+      return Tell(homing::server::CheckHealth(
+          command.health_server,
+          {command.health_ca, command.health_trusted, command.health_cert, command.health_key}));
     case ServerCommand::Action::kCerts:
       return Tell(homing::server::RunCerts(command.certificates));
     case ServerCommand::Action::kToken:

@@ -51,6 +51,12 @@ absl::Status AccessControl::ReadFiles(bool (*is_due)(const std::string& path)) {
   if (!files_.tokens.empty() && is_due(files_.tokens)) {
     absl::StatusOr<TokenBook> book = TokenBook::Read(files_.tokens);
     status.Update(book.status());
+    // A file in the middle of being written, or lost: nobody could connect any more.
+    if (book.ok() && book->empty() && tokens_ && !tokens_->empty()) {
+      book = absl::InvalidArgumentError(
+          absl::StrCat("tokens is \"", files_.tokens, "\"; it must hold at least one token"));
+      status.Update(book.status());
+    }
     if (book.ok()) {
       const std::lock_guard lock(mutex_);
       tokens_ = std::make_shared<TokenBook>(*std::move(book));

@@ -31,6 +31,7 @@ class TokenBook {
   // File: [tokens], "sha256:HEX" = "robots/r1". INVALID_ARGUMENT.
   static absl::StatusOr<TokenBook> Read(const std::string& path);
 
+  bool empty() const { return entries_.empty(); }
   // Whose it is. Every entry is looked at, whatever it holds.
   std::optional<std::string> Find(const std::string& token) const;
 

@@ -2,6 +2,7 @@
 
 #include "absl/strings/escaping.h"
 #include "absl/strings/str_cat.h"
+#include "homing/base/host_port.h"
 #include "homing/base/range_check.h"
 #include "homing/base/status_macros.h"
 #include "server/config/option_groups.h"
@@ -24,6 +25,11 @@ bool IsLoopback(const std::string& address) {
   const bool is_name = host.find_first_not_of("0123456789.") != std::string::npos;
   return host == "localhost" || host == "::1" || (host.rfind("127.", 0) == 0 && !is_name) ||
          address.rfind("unix:", 0) == 0;
+}
+
+absl::Status CheckListenAddress(const std::string& field, const std::string& address) {
+  if (address.rfind("unix:", 0) == 0) return absl::OkStatus();
+  return ParseHostPort(field, address, 0).status();
 }
 
 }  // namespace
@@ -49,6 +55,10 @@ absl::Status Validate(const ServerOptions& options) {
   }
   HOMING_RETURN_IF_ERROR(CheckRange("reload-s", options.reload_s, 1, 3600));
   HOMING_RETURN_IF_ERROR(Validate(options.limits));
+  HOMING_RETURN_IF_ERROR(CheckListenAddress("listen", options.listen));
+  if (HasHttp(options)) {
+    HOMING_RETURN_IF_ERROR(ParseHostPort("http", options.http, 0).status());
+  }
   if (HasHttp(options) && !options.insecure && !IsLoopback(options.http)) {
     return absl::InvalidArgumentError(
         absl::StrCat("http is \"", options.http,

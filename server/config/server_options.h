@@ -83,6 +83,8 @@ struct ServerCommand {
   // kHealthCheck: whom to ask, and the CA of its certificate (empty: no TLS).
   std::string health_server;
   std::string health_ca;
+  // Instead of a CA: the very certificate of the server.
+  std::string health_trusted;
   std::string health_cert;
   std::string health_key;
   // kDoctor, kBackup: the database file, and the new file to write (kDoctor: empty, nothing).

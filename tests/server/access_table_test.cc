@@ -208,7 +208,7 @@ TEST_P(AccessTableTest, WhoDoesNotSayWhoTheyAreGetsNothing) {
 }
 
 TEST_P(AccessTableTest, HealthIsForEveryone) {
-  EXPECT_THAT(CheckHealth(server_->address(), ""), IsOk());
+  EXPECT_THAT(CheckHealth(server_->address()), IsOk());
 }
 
 TEST_P(AccessTableTest, EveryMethodOfTheApiHasARow) {

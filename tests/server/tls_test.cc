@@ -95,10 +95,22 @@ TEST_F(TlsTest, PlainTextIsRefused) {
 TEST_F(TlsTest, WithoutACertificateNobodyConnects) {
   const std::string ca = Read(pki("ca.pem"));
   EXPECT_EQ(Get(Dial({}, ca)).error_code(), grpc::StatusCode::UNAVAILABLE);
-  EXPECT_FALSE(CheckHealth(server_->address(), pki("ca.pem")).ok());
-  EXPECT_THAT(CheckHealth(server_->address(), pki("ca.pem"), pki("operators/anna.pem"),
-                          pki("operators/anna.key")),
+  EXPECT_FALSE(CheckHealth(server_->address(), {pki("ca.pem"), "", "", ""}).ok());
+  EXPECT_THAT(CheckHealth(server_->address(), {pki("ca.pem"), "", pki("operators/anna.pem"),
+                                               pki("operators/anna.key")}),
               IsOk());
+}
+
+TEST_F(TlsTest, HealthCheckOfTheSameEnvironmentShowsAndTrustsTheServersCertificate) {
+  const HealthCheckFiles own = {"", pki("server.pem"), pki("server.pem"), pki("server.key")};
+  EXPECT_THAT(CheckHealth(server_->address(), own), IsOk());
+  EXPECT_FALSE(CheckHealth(server_->address(), {"", pki("server.pem"), "", ""}).ok());
+  EXPECT_FALSE(CheckHealth(server_->address(),
+                           {"", pki("operators/anna.pem"), pki("server.pem"), pki("server.key")})
+                   .ok());
+  const std::string ca = Read(pki("ca.pem"));
+  EXPECT_EQ(Get(Dial({Read(pki("server.key")), Read(pki("server.pem"))}, ca)).error_code(),
+            grpc::StatusCode::UNAUTHENTICATED);
 }
 
 TEST_F(TlsTest, ExpiredForeignAndRevokedCertificatesAreRefused) {
