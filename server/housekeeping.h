@@ -8,6 +8,7 @@
 #include <mutex>
 #include <thread>
 
+#include "server/clock_watch.h"
 #include "server/rpc/service_core.h"
 
 namespace homing::server {
@@ -18,13 +19,17 @@ class Housekeeping {
   // `core` must outlive it.
   Housekeeping(ServiceCore* core, std::chrono::seconds reload_every);
   ~Housekeeping();
+  // Reads certificates, tokens and roles again. Thread-safe.
+  void Reload();
   Housekeeping(const Housekeeping&) = delete;
   Housekeeping& operator=(const Housekeeping&) = delete;
 
  private:
   void Run();
-  void Reload();
   void DeleteExpired();
+
+  // Used by the thread alone.
+  ClockWatch clock_;
 
   ServiceCore* const core_;
   const std::chrono::seconds reload_every_;
