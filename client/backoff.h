@@ -9,9 +9,9 @@
 namespace homing::client {
 
 struct BackoffOptions {
-  // First wait and longest wait.
+  // First wait and longest wait. A server that is back is found within a second.
   std::chrono::milliseconds initial{100};
-  std::chrono::milliseconds longest{3000};
+  std::chrono::milliseconds longest{700};
   // Growth from one wait to the next. [1, 10].
   double factor = 1.7;
   // Each wait is shortened by up to this share, so that a fleet does not come back as one. [0, 1].

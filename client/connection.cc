@@ -4,6 +4,8 @@
 #include <grpcpp/security/credentials.h>
 
 #include <algorithm>
+#include <cerrno>
+#include <cstdlib>
 #include <fstream>
 #include <sstream>
 
@@ -12,6 +14,7 @@
 #include "absl/strings/str_cat.h"
 #include "client/backoff.h"
 #include "client/rpc_status.h"
+#include "client/server_address.h"
 #include "client/token_interceptor.h"
 #include "homing/base/status_macros.h"
 
@@ -22,13 +25,17 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr int kReconnectBackoffMs = 100;
+// A server that was restarted is found again within a second.
+constexpr int kMaxReconnectBackoffMs = 700;
+constexpr std::chrono::milliseconds kStopCheck{100};
 // After a refusal: one more attempt fits in, so that a server on its way up is not missed.
 constexpr std::chrono::milliseconds kSecondAttempt{400};
 
 absl::StatusOr<std::string> ReadPem(const std::string& flag, const std::string& path) {
   if (path.empty()) return std::string();
+  errno = 0;
   std::ifstream file(path, std::ios::binary);
-  if (!file) return absl::NotFoundError(absl::StrCat(flag, ": cannot read ", path));
+  if (!file) return absl::ErrnoToStatus(errno, absl::StrCat(flag, ": cannot read ", path));
   std::ostringstream text;
   text << file.rdbuf();
   return text.str();
@@ -54,7 +61,11 @@ absl::StatusOr<std::shared_ptr<grpc::ChannelCredentials>> MakeCredentials(
   return grpc::SslCredentials(ssl);
 }
 
-grpc::ChannelArguments MakeArguments() {
+// gRPC's own resolver knows neither mDNS nor what else the system is set up for. Read by gRPC when
+// it starts, so before the first channel; what the user sets stays.
+void UseResolverOfSystem() { ::setenv("GRPC_DNS_RESOLVER", "native", /*overwrite=*/0); }
+
+grpc::ChannelArguments MakeArguments(const std::string& address) {
   grpc::ChannelArguments arguments;
   // A dead link shows itself within half a minute even when nothing is sent.
   arguments.SetInt(GRPC_ARG_KEEPALIVE_TIME_MS, 20000);
@@ -62,7 +73,10 @@ grpc::ChannelArguments MakeArguments() {
   arguments.SetInt(GRPC_ARG_INITIAL_RECONNECT_BACKOFF_MS, kReconnectBackoffMs);
   // gRPC's time for one attempt to connect, TLS and all: a slow radio link takes seconds.
   arguments.SetInt(GRPC_ARG_MIN_RECONNECT_BACKOFF_MS, 5000);
-  arguments.SetInt(GRPC_ARG_MAX_RECONNECT_BACKOFF_MS, 2000);
+  arguments.SetInt(GRPC_ARG_MAX_RECONNECT_BACKOFF_MS, kMaxReconnectBackoffMs);
+  arguments.SetInt(GRPC_ARG_ENABLE_HTTP_PROXY, MayUseProxy(address) ? 1 : 0);
+  // After a failure the name is asked for again at once: by default only every 30 s.
+  arguments.SetInt(GRPC_ARG_DNS_MIN_TIME_BETWEEN_RESOLUTIONS_MS, kMaxReconnectBackoffMs);
   // A Connection is a connection: programs with several of them do not lose all at once.
   arguments.SetInt(GRPC_ARG_USE_LOCAL_SUBCHANNEL_POOL, 1);
   // The server limits messages; answers hold no images.
@@ -96,14 +110,17 @@ Connection::Connection(ConnectionOptions options, std::shared_ptr<grpc::Channel>
     : options_(std::move(options)), channel_(std::move(channel)) {}
 
 absl::StatusOr<Connection> Connection::Open(const ConnectionOptions& options) {
+  HOMING_RETURN_IF_ERROR(CheckServerAddress(options.address));
+  UseResolverOfSystem();
   HOMING_ASSIGN_OR_RETURN(const auto credentials, MakeCredentials(options));
   HOMING_ASSIGN_OR_RETURN(const std::string token, ReadToken(options));
   if (token.empty()) {
-    return Connection(options,
-                      grpc::CreateCustomChannel(options.address, credentials, MakeArguments()));
+    return Connection(options, grpc::CreateCustomChannel(options.address, credentials,
+                                                         MakeArguments(options.address)));
   }
-  return Connection(options, grpc::experimental::CreateCustomChannelWithInterceptors(
-                                 options.address, credentials, MakeArguments(), SendToken(token)));
+  return Connection(
+      options, grpc::experimental::CreateCustomChannelWithInterceptors(
+                   options.address, credentials, MakeArguments(options.address), SendToken(token)));
 }
 
 absl::Status Connection::WaitForServer() const {
@@ -118,13 +135,23 @@ absl::Status Connection::WaitForServer() const {
     const auto left = limit - Clock::now();
     if (state == GRPC_CHANNEL_SHUTDOWN || left <= left.zero() ||
         !channel_->WaitForStateChange(state, std::chrono::system_clock::now() + left)) {
-      return absl::UnavailableError(absl::StrCat(
-          "no server answers at ", options_.address, " (--server)",
-          UsesTls(options_) ? ", or TLS failed: the CA, or the certificate of one side, is not good"
-                            : ", or it wants TLS (--tls-ca)"));
+      return ExplainUnreachable(options_.address, UsesTls(options_));
     }
   }
   return absl::OkStatus();
+}
+
+bool Connection::AwaitReady(const std::stop_token& stop) const {
+  const auto until = Clock::now() + std::chrono::milliseconds(kMaxReconnectBackoffMs);
+  while (!stop.stop_requested()) {
+    const auto state = channel_->GetState(/*try_to_connect=*/true);
+    if (state == GRPC_CHANNEL_READY) return true;
+    const auto left = until - Clock::now();
+    if (state == GRPC_CHANNEL_SHUTDOWN || left <= left.zero()) return false;
+    const auto slice = std::min<Clock::duration>(left, kStopCheck);
+    channel_->WaitForStateChange(state, std::chrono::system_clock::now() + slice);
+  }
+  return false;
 }
 
 absl::Status Connection::Retry(const std::stop_token& stop,
@@ -134,8 +161,11 @@ absl::Status Connection::Retry(const std::stop_token& stop,
   while (true) {
     absl::Status status = call();
     if (!IsRetriable(status) || Clock::now() >= deadline) return status;
-    const auto wait = std::max(backoff.Next(), RetryDelay(status).value_or(backoff.Next()));
+    const auto wait =
+        std::max(backoff.Next(), RetryDelay(status).value_or(std::chrono::milliseconds(0)));
     if (!SleepFor(wait, stop)) return absl::CancelledError("stopped");
+    AwaitReady(stop);
+    if (stop.stop_requested()) return absl::CancelledError("stopped");
   }
 }
 

@@ -19,6 +19,12 @@ absl::Status FromGrpc(const grpc::Status& status);
 // The delay that the server named, if it did.
 std::optional<std::chrono::milliseconds> RetryDelay(const absl::Status& status);
 
+// Whether the server (or the way to it) said so, and not this machine: FromGrpc made it.
+bool IsFromServer(const absl::Status& status);
+
+// Whether something between client and server, as a proxy, broke the stream off.
+bool IsReset(const absl::Status& status);
+
 // Whether the same call may succeed later: UNAVAILABLE, and RESOURCE_EXHAUSTED or CANCELLED with a
 // delay.
 bool IsRetriable(const absl::Status& status);
