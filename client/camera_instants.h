@@ -28,7 +28,7 @@ struct FrameChoice {
   double seconds = 0;
   // A bad frame is an error; else it is skipped and reported. Frames without a partner are too.
   bool strict = false;
-  // For people: what is left out, and why.
+  // Receives one line of text for each thing that is left out, with the reason.
   std::function<void(const std::string&)> report = [](const std::string&) {};
   // Ends live sources.
   std::stop_token stop;
@@ -45,7 +45,7 @@ class CameraInstants {
     // Instants before this one are missing.
     bool gap_before = false;
   };
-  // What Next goes on from.
+  // A point from which Next can continue.
   struct Place {
     std::int64_t index = 0;
     // The slot of time of the last instant; see FrameChoice::fps.

@@ -24,7 +24,7 @@ struct SourceFrame {
   std::int64_t capture_time_ns = 0;
   // Frames before this one are missing: no flow spans the gap.
   bool gap_before = false;
-  // What is wrong with the file, naming it; empty: the frame can be used.
+  // Names the file and its fault; empty: the frame can be used.
   std::string fault = "";
 
   Frame view() const { return {encoding, width, height, data}; }
@@ -43,7 +43,7 @@ struct FrameKeys {
 class FrameSource {
  public:
   virtual ~FrameSource() = default;
-  // Nothing at the end. A frame with a fault counts; the next call goes on behind it.
+  // Nothing at the end. A frame with a fault counts; the next call continues behind it.
   virtual absl::StatusOr<std::optional<SourceFrame>> Next() = 0;
   // Number of frames, -1 if not known (live camera).
   virtual std::int64_t size() const { return -1; }

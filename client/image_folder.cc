@@ -22,7 +22,7 @@ namespace {
 
 constexpr std::array<const char*, 9> kUnreadableEndings = {
     ".heic", ".heif", ".avif", ".gif", ".dng", ".cr2", ".nef", ".arw", ".jxl"};
-// The server has limits of its own; a file that says more than this is no image of a camera.
+// The server applies stricter limits; a file that claims more than this is no image of a camera.
 constexpr DecodeLimits kFileLimits = {1, 65535, std::int64_t{1} << 28};
 
 bool HasUnreadableEnding(const std::string& path) {

@@ -9,8 +9,8 @@
 
 namespace homing::client {
 
-// The frames of `camera`, read on a thread of their own: at a stop the source ends at once, even
-// while the camera gives nothing. REQUIRES: camera->live().
+// The frames of `camera`, read on a separate thread: at a stop the source ends at once, even while
+// the camera gives nothing. REQUIRES: camera->live().
 std::unique_ptr<FrameSource> MakeStoppable(std::unique_ptr<FrameSource> camera,
                                            std::stop_token stop);
 

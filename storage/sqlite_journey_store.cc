@@ -61,7 +61,7 @@ void SqliteJourneyStore::NoteLogPages(int pages) {
 
 absl::Status SqliteJourneyStore::CheckFiles() {
   if (files_ == nullptr) return absl::OkStatus();
-  // Who looks at the file with a tool of SQLite may move the log into it.
+  // A tool of SQLite that reads the file may move the log into it.
   if (files_->IsLogCut()) {
     if (const int pages = checkpointer_->CountPagesInLog(); pages >= 0) NoteLogPages(pages);
   }

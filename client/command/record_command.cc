@@ -65,8 +65,8 @@ absl::Status OtherSource(const v1::Journey& journey) {
       "begins a new journey, and homing journeys finish closes it"));
 }
 
-// A journey of the same source goes on where it stopped; for another, or a live one, --resume says
-// that it is meant to.
+// A journey of the same source continues where it stopped. For another source, or a live one, the
+// user must ask for it with --resume.
 absl::StatusOr<Target> OpenTarget(JourneyClient& journeys, const RecordFlags& flags,
                                   const std::string& mark) {
   HOMING_ASSIGN_OR_RETURN(auto request, MakeCreateRequest(flags));

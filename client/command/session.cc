@@ -12,7 +12,7 @@
 namespace homing::client {
 namespace {
 
-// What the one who typed the command can do about a refusal by the server.
+// How the user can react to a refusal by the server.
 std::string AdviceOn(const absl::Status& status) {
   if (!IsFromServer(status)) return "";
   if (absl::IsUnauthenticated(status)) {

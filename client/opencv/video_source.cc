@@ -126,7 +126,8 @@ class VideoSource : public FrameSource {
     return image;
   }
 
-  // Behind a damaged part the video goes on: a read that fails is no end while frames are due.
+  // A video continues behind a damaged part: while frames are missing, a failed read is not the
+  // end.
   void ReadOn(cv::Mat* image) {
     int attempts = 0;
     while (!capture_.read(*image) && !live_ && next_ < promised_ && ++attempts < kAttempts) {
@@ -168,7 +169,8 @@ class VideoSource : public FrameSource {
 }  // namespace
 
 absl::StatusOr<std::unique_ptr<FrameSource>> OpenVideo(const std::string& path) {
-  // What is wrong is said once, by us. What the user sets stays.
+  // This module reports each fault once; OpenCV and FFmpeg stay silent. The user's own settings
+  // win.
   cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
   ::setenv("OPENCV_FFMPEG_LOGLEVEL", kNoLines, /*overwrite=*/0);
   static const bool users_options = std::getenv("OPENCV_FFMPEG_CAPTURE_OPTIONS") != nullptr;

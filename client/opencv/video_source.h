@@ -10,7 +10,7 @@
 
 namespace homing::client {
 
-// Grey frames. What is no plain file is live (cameras, pipes): no size, no seeking. A damaged part is
+// Grey frames. Cameras and pipes are live: no size, no seeking. A damaged part is
 // a gap; DATA_LOSS at the end if it comes before what the file promises. INVALID_ARGUMENT: not a
 // video (texts and single images are none), or without frames.
 absl::StatusOr<std::unique_ptr<FrameSource>> OpenVideo(const std::string& path);

@@ -5,8 +5,8 @@
 namespace homing::server {
 
 // Sends gRPC's own lines to the server's log, a few a minute: whoever reaches the port causes them
-// (failed handshakes, requests that cannot be decoded), before any token is looked at. What is left
-// out is counted in the next line. Before gRPC is used.
+// (failed handshakes, requests that cannot be decoded), before any token is checked. The next line
+// counts those that were left out. Before gRPC is used.
 void LimitLogOfGrpc();
 
 }  // namespace homing::server

@@ -61,7 +61,7 @@ TEST_F(CliSourceTest, NoUsableFrameLeavesNoJourney) {
 TEST_F(CliSourceTest, AnotherSourceNeedsResume) {
   ASSERT_EQ(Record("sim:street,length=2", {"--no-finish"}).code, 0);
   const std::int64_t first = Shown()["next_sequence"];
-  // The same goes on without being asked.
+  // The same source continues without --resume.
   ASSERT_EQ(Record("sim:street,length=2", {"--no-finish"}).code, 0);
   EXPECT_EQ(Shown()["next_sequence"], first);
   const Ran other = Record(Path("drive/left"));
@@ -71,7 +71,7 @@ TEST_F(CliSourceTest, AnotherSourceNeedsResume) {
   ASSERT_EQ(Record(Path("drive/left"), {"--resume", "--no-finish"}).code, 0);
   const std::int64_t both = Shown()["next_sequence"];
   EXPECT_GT(both, first);
-  // The second source, begun again, goes on where it stopped too.
+  // The second source, begun again, continues where it stopped too.
   ASSERT_EQ(Record(Path("drive/left"), {"--no-finish"}).code, 0);
   EXPECT_EQ(Shown()["next_sequence"], both);
 }
