@@ -46,14 +46,17 @@ class StoppableSource : public FrameSource {
       started_ = true;
       std::thread(ReadAll, mailbox_, camera_).detach();
     }
+    if (!error_.ok()) return error_;
     std::unique_lock lock(mailbox_->mutex);
-    if (ended_ ||
-        !mailbox_->changed.wait(lock, stop_, [&] { return mailbox_->frame.has_value(); })) {
+    const auto has_frame = [&] { return mailbox_->frame.has_value(); };
+    if (ended_ || !mailbox_->changed.wait(lock, stop_, has_frame)) {
       return std::optional<SourceFrame>();
     }
     Frame frame = *std::move(mailbox_->frame);
     mailbox_->frame.reset();
     ended_ = !frame.ok() || !frame->has_value();
+    // Given again, as by every source.
+    error_ = frame.status();
     mailbox_->changed.notify_all();
     return frame;
   }
@@ -66,6 +69,7 @@ class StoppableSource : public FrameSource {
   std::shared_ptr<Mailbox> mailbox_ = std::make_shared<Mailbox>();
   bool started_ = false;
   bool ended_ = false;
+  absl::Status error_;
 };
 
 }  // namespace

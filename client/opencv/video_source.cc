@@ -144,7 +144,7 @@ class VideoSource : public FrameSource {
     if (live_) {
       std::error_code error;
       if (std::filesystem::is_fifo(path_, error)) return absl::OkStatus();
-      return absl::UnavailableError(absl::StrCat(path_, " gives no more frames"));
+      return absl::DataLossError(absl::StrCat(path_, " gives no more frames"));
     }
     const double promised = static_cast<double>(promised_);
     const bool by_count = static_cast<double>(next_) >= 0.98 * promised - 2;
