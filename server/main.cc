@@ -13,9 +13,9 @@
 #include "server/config/server_options.h"
 #include "server/config/store_commands.h"
 #include "server/homing_server.h"
-#include "server/rpc/grpc_log.h"
 #include "server/process/lock_checks.h"
 #include "server/process/open_files.h"
+#include "server/rpc/library_log.h"
 
 // Read by jemalloc. One arena: what one of the few threads allocates another frees. What is free
 // goes back soon: after a burst of a thousand robots it was as much as all that they use.
@@ -49,7 +49,7 @@ sigset_t BlockStopSignals() {
 int Serve(const homing::server::ServerOptions& options) {
   const sigset_t signals = BlockStopSignals();
   homing::RaiseOpenFileLimit();
-  homing::server::LimitLogOfGrpc();
+  homing::server::LimitLogOfLibraries();
   const auto server = HomingServer::Start(options);
   if (!server.ok()) {
     return Tell(server.status());

@@ -22,21 +22,22 @@ constexpr std::chrono::milliseconds kReaderCheck{50};
 using Write = std::function<absl::Status(std::ostream&)>;
 
 // Until `file` is closed; the system's reason if that fails.
-absl::Status WriteTo(const std::string& path, const Write& write) {
+// `name`: of the file that the user knows.
+absl::Status WriteTo(const std::string& path, const std::string& name, const Write& write) {
   errno = 0;
   std::ofstream file(path, std::ios::binary | std::ios::trunc);
-  if (!file) return CannotWrite(path, errno);
+  if (!file) return CannotWrite(name, errno);
   absl::Status status = write(file);
   errno = 0;
   file.close();
-  if (status.ok() && !file) status = CannotWrite(path, errno == 0 ? ENOSPC : errno);
+  if (status.ok() && !file) status = CannotWrite(name, errno == 0 ? ENOSPC : errno);
   return status;
 }
 
 // Beside the file and renamed, so that the file is whole or as it was.
 absl::Status Replace(const fs::path& path, const fs::file_status& before, const Write& write) {
   const std::string part = path.string() + ".part";
-  absl::Status status = WriteTo(part, write);
+  absl::Status status = WriteTo(part, path.string(), write);
   std::error_code error;
   if (status.ok() && fs::exists(before)) fs::permissions(part, before.permissions(), error);
   if (status.ok() && std::rename(part.c_str(), path.c_str()) != 0) {
@@ -102,7 +103,7 @@ absl::StatusOr<std::uintmax_t> WriteOutputFile(const std::string& path, const Wr
     if (!read.ok()) return read;
   }
   const absl::Status status =
-      special ? WriteTo(target.string(), write) : Replace(target, before, write);
+      special ? WriteTo(target.string(), path, write) : Replace(target, before, write);
   if (!status.ok()) return status;
   const std::uintmax_t size = special ? 0 : fs::file_size(target, error);
   return error ? 0 : size;
