@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "absl/strings/str_cat.h"
+#include "homing/base/range_check.h"
 #include "homing/base/status_macros.h"
 #include "homing/localization/aliasing.h"
 #include "homing/localization/position_filter.h"
@@ -24,9 +25,9 @@ absl::StatusOr<JourneySettings> DecodeSettings(const v1::JourneySettings& messag
                                                ModelCatalog* models) {
   HOMING_ASSIGN_OR_RETURN(JourneySettings settings,
                           wire::FromProto(message, "journey.settings", JourneySettings()));
-  HOMING_ASSIGN_OR_RETURN(const storage::StoredModel model,
-                          models->Get(settings.deviation_model_name));
-  settings.deviation_model = model.model;
+  const auto model = models->Get(settings.deviation_model_name);
+  HOMING_RETURN_IF_ERROR(Within("journey.settings.deviation_model", model.status()));
+  settings.deviation_model = model->model;
   HOMING_RETURN_IF_ERROR(Validate(settings));
   return settings;
 }
