@@ -30,7 +30,9 @@ namespace {
 
 // Clients may ping as often as this.
 constexpr int kMinPingIntervalMs = 5'000;
-constexpr int kMaxConnectionStreams = 65'536;
+// Above --max-streams as a rule, since a stream over that is refused with a reason, while one over
+// this waits.
+constexpr int kMaxConnectionStreams = 16'384;
 // A token and what proxies add take a few hundred.
 constexpr int kMaxHeaderBytes = 8'192;
 
@@ -70,10 +72,7 @@ void Configure(const ServerOptions& options, grpc::ServerBuilder* builder) {
                               kMinPingIntervalMs);
   builder->AddChannelArgument(GRPC_ARG_KEEPALIVE_PERMIT_WITHOUT_CALLS, 1);
   // What one connection may open and send is announced to it.
-  builder->AddChannelArgument(GRPC_ARG_MAX_CONCURRENT_STREAMS,
-                              options.limits.max_streams > 0
-                                  ? static_cast<int>(options.limits.max_streams)
-                                  : kMaxConnectionStreams);
+  builder->AddChannelArgument(GRPC_ARG_MAX_CONCURRENT_STREAMS, kMaxConnectionStreams);
   builder->AddChannelArgument(GRPC_ARG_MAX_METADATA_SIZE, kMaxHeaderBytes);
   if (options.limits.memory_quota > 0) {
     grpc::ResourceQuota quota("homing");
