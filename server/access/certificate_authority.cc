@@ -159,8 +159,7 @@ absl::StatusOr<KeyAndCertificate> CertificateAuthority::Issue(
   const OpensslPtr<X509> certificate = Blank(request, key.get());
   X509* const made = certificate.get();
   X509* const issuer = certificate_.get();
-  // The server's health check shows the server's own certificate; it names no robot.
-  const char* usage = request.is_server ? "serverAuth,clientAuth" : "clientAuth";
+  const char* usage = request.is_server ? "serverAuth" : "clientAuth";
   if (!certificate || !AddExtension(made, issuer, NID_basic_constraints, "critical,CA:FALSE") ||
       !AddExtension(made, issuer, NID_key_usage, "critical,digitalSignature") ||
       !AddExtension(made, issuer, NID_ext_key_usage, usage)) {

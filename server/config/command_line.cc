@@ -85,18 +85,15 @@ void ApplyFile(const std::string& path, CLI::App* app) {
   }
 }
 
-// The server of the same options and environment: its address and its certificate. One that wants
-// certificates of its clients is shown its own, which an authority of `certs` made as well.
+// The server of the same options and environment: its address and its certificate. A server that
+// asks for certificates of its clients needs --cert and --key: one of `certs` is good for a server
+// alone.
 void ChooseHealthCheck(ServerCommand* command) {
   const ServerOptions& server = command->options;
   const bool own = command->health_server.empty();
   if (own) command->health_server = server.listen;
   if (!own || !command->health_ca.empty() || server.tls_cert.empty()) return;
   command->health_trusted = server.tls_cert;
-  if (command->health_cert.empty() && !server.tls_client_ca.empty()) {
-    command->health_cert = server.tls_cert;
-    command->health_key = server.tls_key;
-  }
 }
 
 int TellError(const std::string& message) {

@@ -109,10 +109,6 @@ TEST_F(ServerOptionsTest, HealthOfTheSameEnvironmentTrustsTheServersCertificate)
   ServerCommand command = Parse({"healthcheck", "--tls-cert", "server.pem", "--tls-key", "k"});
   EXPECT_EQ(command.health_trusted, "server.pem");
   EXPECT_EQ(command.health_cert, "");
-  command = Parse({"healthcheck", "--tls-cert", "server.pem", "--tls-key", "k", "--tls-client-ca",
-                   "ca.pem"});
-  EXPECT_EQ(command.health_cert, "server.pem");
-  EXPECT_EQ(command.health_key, "k");
   command = Parse({"healthcheck", "--tls-cert", "server.pem", "--tls-key", "k", "--ca", "ca.pem"});
   EXPECT_EQ(command.health_trusted, "");
   command = Parse({"healthcheck", "--tls-cert", "server.pem", "--server", "127.0.0.1:8"});
