@@ -19,6 +19,11 @@ absl::Status Unauthenticated(const char* reason, const std::string& message) {
   return WithReason(absl::UnauthenticatedError(message), {reason, {}});
 }
 
+bool IsEmpty(const std::string& path) {
+  std::error_code error;
+  return std::filesystem::file_size(path, error) == 0 && !error;
+}
+
 // A file that is being written may be half of what it will be: it is read once nobody has touched
 // it for a second.
 bool IsSettled(const std::string& path) {
@@ -51,10 +56,11 @@ absl::Status AccessControl::ReadFiles(bool (*is_due)(const std::string& path)) {
   if (!files_.tokens.empty() && is_due(files_.tokens)) {
     absl::StatusOr<TokenBook> book = TokenBook::Read(files_.tokens);
     status.Update(book.status());
-    // A file in the middle of being written, or lost: nobody could connect any more.
-    if (book.ok() && book->empty() && tokens_ && !tokens_->empty()) {
+    // A file in the middle of being written, or cut: nobody could connect any more. A table without
+    // entries is meant so.
+    if (book.ok() && IsEmpty(files_.tokens) && tokens_ && !tokens_->empty()) {
       book = absl::InvalidArgumentError(
-          absl::StrCat("tokens is \"", files_.tokens, "\"; it must hold at least one token"));
+          absl::StrCat("tokens is \"", files_.tokens, "\"; it is empty and must hold [tokens]"));
       status.Update(book.status());
     }
     if (book.ok()) {
