@@ -9,9 +9,9 @@
 namespace homing::client {
 
 struct BackoffOptions {
-  // The first and the longest wait.
+  // The first and the longest wait: a client finds a restarted server within a second.
   std::chrono::milliseconds initial{100};
-  std::chrono::milliseconds longest{3000};
+  std::chrono::milliseconds longest{700};
   // Growth from one wait to the next. [1, 10].
   double factor = 1.7;
   // Each wait is shortened by a random part of up to this fraction, so that the robots of a fleet

@@ -42,41 +42,74 @@ absl::StatusOr<Cameras> OpenCameras(const std::string& left, const std::string& 
   return cameras;
 }
 
-CameraObservations::CameraObservations(Cameras cameras, const std::optional<FlowOptions>& flow)
-    : cameras_(std::move(cameras)), flow_options_(flow) {
-  ForgetLastFrame();
+CameraObservations::CameraObservations(std::unique_ptr<CameraInstants> instants,
+                                       const std::optional<FlowOptions>& flow)
+    : instants_(std::move(instants)), flow_options_(flow) {
+  Forget();
 }
 
-void CameraObservations::ForgetLastFrame() {
+void CameraObservations::Forget() {
   if (flow_options_) flow_.emplace(*flow_options_);
+  had_ = {};
 }
 
-absl::StatusOr<std::optional<CameraObservations::Instant>> CameraObservations::NextInstant() {
-  Instant instant;
-  for (std::size_t camera = 0; camera < cameras_.size(); ++camera) {
-    if (cameras_[camera] == nullptr) continue;
-    HOMING_ASSIGN_OR_RETURN(instant[camera], cameras_[camera]->Next());
+std::int64_t CameraObservations::read_count() const {
+  const std::lock_guard lock(mutex_);
+  return static_cast<std::int64_t>(marks_.size());
+}
+
+void CameraObservations::AddMark(const Mark& mark) {
+  const std::lock_guard lock(mutex_);
+  marks_.push_back(mark);
+}
+
+std::int64_t CameraObservations::FrameOf(std::int64_t sequence) const {
+  const std::lock_guard lock(mutex_);
+  const std::int64_t own = sequence - base_;
+  if (own < 0 || own >= static_cast<std::int64_t>(marks_.size())) return -1;
+  return marks_[static_cast<std::size_t>(own)].frame;
+}
+
+absl::StatusOr<std::optional<CameraInstants::Instant>> CameraObservations::NextInstant(
+    std::optional<ObservedFlow>* flow) {
+  while (true) {
+    const CameraInstants::Place here = instants_->place();
+    HOMING_ASSIGN_OR_RETURN(auto instant, instants_->Next());
+    if (!instant) return instant;
+    if (instant->gap_before) {
+      Forget();
+      break_ = read_count() > 0;
+    }
+    bool has_flow = false;
+    for (std::size_t camera = 0; camera < had_.size(); ++camera) {
+      has_flow = has_flow || (had_[camera] && instant->frames[camera]);
+      had_[camera] = instant->frames[camera].has_value();
+    }
+    if (flow != nullptr) {
+      auto computed = flow_->Compute(ViewFrames(instant->frames));
+      if (!computed.ok()) {
+        return Within(absl::StrCat("observation[", next_, "]"), computed.status());
+      }
+      *flow = *std::move(computed);
+    }
+    const CameraInstants::Place from = flow_ ? std::exchange(before_, here) : here;
+    // The first frame of a camera has no flow; it makes no observation.
+    if (flow_ && !has_flow) continue;
+    AddMark({from, instant->index});
+    return instant;
   }
-  if (!instant[0] && !instant[1]) return std::optional<Instant>();
-  return std::make_optional(std::move(instant));
 }
 
 absl::StatusOr<std::optional<Observation>> CameraObservations::NextFlow() {
-  while (true) {
-    HOMING_ASSIGN_OR_RETURN(const auto instant, NextInstant());
-    if (!instant) return std::optional<Observation>();
-    Observation frames = ViewFrames(*instant);
-    auto flow_or = flow_->Compute(frames);
-    if (!flow_or.ok()) return Within(absl::StrCat("observation[", next_, "]"), flow_or.status());
-    ObservedFlow flow = *std::move(flow_or);
-    // The first frame has no flow and makes no observation.
-    if (!flow.fields[0] && !flow.fields[1]) continue;
-    for (std::size_t camera = 0; camera < flow.fields.size(); ++camera) {
-      frames.views[camera] = std::monostate();
-      if (flow.fields[camera]) frames.views[camera] = *std::move(flow.fields[camera]);
-    }
-    return std::make_optional(std::move(frames));
+  std::optional<ObservedFlow> flow;
+  HOMING_ASSIGN_OR_RETURN(const auto instant, NextInstant(&flow));
+  if (!instant) return std::optional<Observation>();
+  Observation observation = ViewFrames(instant->frames);
+  for (std::size_t camera = 0; camera < flow->fields.size(); ++camera) {
+    observation.views[camera] = std::monostate();
+    if (flow->fields[camera]) observation.views[camera] = *std::move(flow->fields[camera]);
   }
+  return std::make_optional(std::move(observation));
 }
 
 v1::Observation CameraObservations::Number(Observation observation) {
@@ -91,37 +124,53 @@ absl::StatusOr<std::optional<v1::Observation>> CameraObservations::Next() {
     if (!flow) return std::optional<v1::Observation>();
     return std::make_optional(Number(*std::move(flow)));
   }
-  HOMING_ASSIGN_OR_RETURN(const auto instant, NextInstant());
+  HOMING_ASSIGN_OR_RETURN(const auto instant, NextInstant(nullptr));
   if (!instant) return std::optional<v1::Observation>();
-  return std::make_optional(Number(ViewFrames(*instant)));
+  return std::make_optional(Number(ViewFrames(instant->frames)));
 }
 
 bool CameraObservations::Seek(std::int64_t sequence) {
-  for (const auto& camera : cameras_) {
-    if (camera == nullptr) continue;
-    const std::int64_t size = camera->size();
-    if (!camera->Seek(size < 0 ? sequence : std::min(sequence, size))) return false;
+  const std::int64_t own = sequence - base_;
+  if (own < 0 || instants_->live()) return false;
+  std::optional<CameraInstants::Place> from;
+  {
+    const std::lock_guard lock(mutex_);
+    if (own < static_cast<std::int64_t>(marks_.size())) {
+      from = marks_[static_cast<std::size_t>(own)].from;
+      marks_.resize(static_cast<std::size_t>(own));
+    }
   }
-  ForgetLastFrame();
+  if (from) {
+    Forget();
+    if (!instants_->GoTo(*from)) return false;
+  }
+  // Which frames are bad is known only after they were read. The last one's flow is computed, since
+  // the next one needs its frames.
+  while (read_count() < own) {
+    std::optional<ObservedFlow> flow;
+    const bool last = flow_ && read_count() + 1 == own;
+    const auto instant = NextInstant(last ? &flow : nullptr);
+    // Next gives the error again.
+    if (!instant.ok() || !*instant) break;
+  }
   next_ = sequence;
   break_ = false;
   return true;
 }
 
 void CameraObservations::ContinueAt(std::int64_t sequence) {
-  ForgetLastFrame();
-  next_ = sequence;
+  if (!Seek(sequence)) {
+    Forget();
+    base_ = sequence - read_count();
+    next_ = sequence;
+  }
   break_ = true;
 }
 
 std::int64_t CameraObservations::size() const {
-  std::int64_t frames = 0;
-  for (const auto& camera : cameras_) {
-    if (camera == nullptr) continue;
-    if (camera->size() < 0) return -1;
-    frames = std::max(frames, camera->size());
-  }
-  return flow_ ? std::max<std::int64_t>(frames - 1, 0) : frames;
+  const std::int64_t frames = instants_->size();
+  if (frames < 0) return -1;
+  return base_ + (flow_ ? std::max<std::int64_t>(frames - 1, 0) : frames);
 }
 
 }  // namespace homing::client

@@ -5,48 +5,70 @@
 
 #include <array>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
+#include <vector>
 
+#include "client/camera_instants.h"
 #include "client/frame_source.h"
 #include "client/observation_stream.h"
 #include "homing/flow/observation.h"
 
 namespace homing::client {
 
-// Indexed by Side: the robot's cameras.
-using Cameras = std::array<std::unique_ptr<FrameSource>, 2>;
-
 // Opens the named sources; at least one. Errors of OpenFrameSource.
 absl::StatusOr<Cameras> OpenCameras(const std::string& left, const std::string& right);
 
 class CameraObservations : public ObservationStream {
  public:
-  // With `flow` set, observations hold flow vectors: observation n is the flow from frame n to
-  // frame n + 1, so there is one observation less. REQUIRES: a camera; Validate(*flow).ok().
-  CameraObservations(Cameras cameras, const std::optional<FlowOptions>& flow);
+  // With `flow` set, observations hold flow vectors: an observation is the flow between two
+  // consecutive instants, so there is at least one less. REQUIRES: Validate(*flow).ok().
+  CameraObservations(std::unique_ptr<CameraInstants> instants,
+                     const std::optional<FlowOptions>& flow);
+
+  // The first instant becomes observation `sequence`: the earlier ones came from another source.
+  // Call it before anything is read.
+  void StartAt(std::int64_t sequence) { base_ = next_ = sequence; }
 
   absl::StatusOr<std::optional<v1::Observation>> Next() override;
   bool Seek(std::int64_t sequence) override;
   void ContinueAt(std::int64_t sequence) override;
 
-  // Number of observations, -1 if not known.
+  // Number of observations at most, -1 if not known.
   std::int64_t size() const;
+  // Index in the source of the frame that made an observation read already, -1: none did.
+  // Thread-safe.
+  std::int64_t FrameOf(std::int64_t sequence) const;
 
  private:
-  // The frames of one instant; they own the bytes that an Observation points to.
-  using Instant = std::array<std::optional<SourceFrame>, 2>;
+  struct Mark {
+    // Reading from here gives the observation again.
+    CameraInstants::Place from;
+    std::int64_t frame = 0;
+  };
 
-  absl::StatusOr<std::optional<Instant>> NextInstant();
   absl::StatusOr<std::optional<Observation>> NextFlow();
+  // The next instant that makes an observation, with its mark. `flow`: computed as well.
+  absl::StatusOr<std::optional<CameraInstants::Instant>> NextInstant(
+      std::optional<ObservedFlow>* flow);
   v1::Observation Number(Observation observation);
-  void ForgetLastFrame();
+  std::int64_t read_count() const;
+  void AddMark(const Mark& mark);
+  void Forget();
 
-  Cameras cameras_;
+  std::unique_ptr<CameraInstants> instants_;
   std::optional<FlowOptions> flow_options_;
   std::optional<ObservationFlow> flow_;
+  // Flow only: the instant before, and the cameras that it has.
+  CameraInstants::Place before_;
+  std::array<bool, 2> had_{};
+  std::int64_t base_ = 0;
   std::int64_t next_ = 0;
   bool break_ = false;
+  mutable std::mutex mutex_;
+  // One an observation read, from base_ on.
+  std::vector<Mark> marks_;
 };
 
 }  // namespace homing::client

@@ -16,7 +16,8 @@
 namespace homing::client {
 
 struct ConnectionOptions {
-  // host:port or unix:path.
+  // host:port or unix:path. Names are resolved as by every other program of the machine; a proxy of
+  // the environment is used for public addresses only.
   std::string address = "127.0.0.1:50551";
   // PEM files. Any of them turns TLS on. Without `tls_ca` the system's roots are trusted.
   // Certificate and key (mutual TLS) must be given together.
@@ -41,16 +42,20 @@ absl::StatusOr<std::string> ReadToken(const ConnectionOptions& options);
 // Thread-safe.
 class Connection {
  public:
-  // Does not wait for the server. INVALID_ARGUMENT: a key without certificate, a token that would
-  // be sent in plain text, or a file without a token; NOT_FOUND: a file.
+  // Does not wait for the server. INVALID_ARGUMENT: an address of another form, a key without
+  // certificate, a token that would be sent in plain text, or a file without a token; NOT_FOUND: a
+  // file.
   static absl::StatusOr<Connection> Open(const ConnectionOptions& options);
 
   const std::shared_ptr<grpc::Channel>& channel() const { return channel_; }
   const ConnectionOptions& options() const { return options_; }
 
-  // UNAVAILABLE with the address: no server answers. Returns after the second refusal, and at the
-  // latest after `connect_timeout`.
+  // UNAVAILABLE with the address and the reason: no server answers. Returns after the second
+  // refusal, and at the latest after `connect_timeout`.
   absl::Status WaitForServer() const;
+
+  // Waits until the server is connected, for one attempt to reconnect at most. False: it is not.
+  bool AwaitReady(const std::stop_token& stop) const;
 
   // Repeats a unary `call` while it IsRetriable, for `retry_for` since the first attempt.
   // CANCELLED: stopped.

@@ -36,6 +36,8 @@ class Exchange {
     reader.join();
     absl::Status status = FromGrpc(stream_->Finish());
     const MutexLock lock(mutex_);
+    // A source gives its error again when the broken link is restored.
+    if (source_failed_ && !status.ok()) return status;
     if (!error_.ok()) return error_;
     if (!status.ok()) return status;
     if (!ended_ || open_ > 0) return absl::UnavailableError("the server ended the stream early");
@@ -59,8 +61,10 @@ class Exchange {
   void WriteAll(ResendBuffer* buffer, const Fill& fill) {
     while (WaitForRoom()) {
       auto next = buffer->Next();
-      if (!next.ok()) return Fail(next.status());
-      if (*next == nullptr) {
+      if (!next.ok() || *next == nullptr) {
+        // What was sent before a source failed is answered first.
+        source_failed_ = !next.ok();
+        if (source_failed_) SetError(next.status());
         ended_ = true;
         stream_->WritesDone();
         return;
@@ -82,11 +86,13 @@ class Exchange {
     return !closed_;
   }
 
+  void SetError(const absl::Status& status) {
+    const std::lock_guard lock(mutex_);
+    if (error_.ok()) error_ = status;
+  }
+
   void Fail(const absl::Status& status) {
-    {
-      const MutexLock lock(mutex_);
-      if (error_.ok()) error_ = status;
-    }
+    SetError(status);
     context_->TryCancel();
   }
 
@@ -99,6 +105,7 @@ class Exchange {
   int open_ HOMING_GUARDED_BY(mutex_) = 0;
   bool closed_ HOMING_GUARDED_BY(mutex_) = false;
   bool ended_ = false;
+  bool source_failed_ = false;
   absl::Status error_ HOMING_GUARDED_BY(mutex_);
 };
 

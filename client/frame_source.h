@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "absl/status/statusor.h"
 #include "homing/flow/observation.h"
@@ -21,21 +22,43 @@ struct SourceFrame {
   std::string data;
   // Nanoseconds; 0: unknown.
   std::int64_t capture_time_ns = 0;
+  // Frames before this one are missing: no flow spans the gap.
+  bool gap_before = false;
+  // Names the file and its fault; empty: the frame can be used.
+  std::string fault = "";
 
   Frame view() const { return {encoding, width, height, data}; }
+};
+
+// What the frames of a source have to be paired by with those of another camera.
+struct FrameKeys {
+  // kTime: nanoseconds from any instant on; kNumber: a counter; kOrder: nothing but their order.
+  enum class Kind { kOrder, kNumber, kTime };
+  Kind kind = Kind::kOrder;
+  // One a frame, ascending; empty for kOrder.
+  std::vector<std::int64_t> values;
 };
 
 // Frames of one camera in order. Not thread-safe.
 class FrameSource {
  public:
   virtual ~FrameSource() = default;
-  // std::nullopt at the end.
+  // std::nullopt at the end. A frame with a fault counts; the next call continues behind it.
   virtual absl::StatusOr<std::optional<SourceFrame>> Next() = 0;
   // Number of frames, -1 if not known (live camera).
   virtual std::int64_t size() const { return -1; }
+  // The same as size(), or the number in a video's header, which need not be true.
+  virtual std::int64_t promised_size() const { return size(); }
   // Seeks to frame `index` (at most size(); beyond the end of a video: its end); false: not
   // possible (live camera).
   virtual bool Seek(std::int64_t index) = 0;
+  // A camera or a pipe: it has no end, and what was read cannot be read again.
+  virtual bool live() const { return false; }
+  virtual FrameKeys keys() const { return {}; }
+  // Frames a second, 0 if not known.
+  virtual double fps() const { return 0; }
+  // What the user should know of what was left out; empty: nothing.
+  virtual std::string remark() const { return ""; }
 };
 
 // Checks that the text names a source, without opening it. INVALID_ARGUMENT.

@@ -57,16 +57,27 @@ absl::Status JourneyClient::Delete(const std::string& name) {
 }
 
 absl::StatusOr<v1::Journey> JourneyClient::Finish(const std::string& name,
-                                                  const std::string& writer_id) {
+                                                  const std::string& writer_id, bool force) {
   v1::FinishJourneyRequest request;
   request.set_name(name);
   request.set_writer_id(writer_id);
+  request.set_force(force);
   HOMING_ASSIGN_OR_RETURN(
       const auto response,
       CallUnary<v1::FinishJourneyResponse>(*connection_, stop_, [&](auto* context, auto* answer) {
         return stub_->FinishJourney(context, request, answer);
       }));
   return response.journey();
+}
+
+absl::StatusOr<v1::Journey> JourneyClient::SetReaders(const std::string& name,
+                                                      const std::vector<std::string>& readers) {
+  v1::SetReadersRequest request;
+  request.set_name(name);
+  for (const std::string& reader : readers) request.add_readers(reader);
+  return CallUnary<v1::Journey>(*connection_, stop_, [&](auto* context, auto* response) {
+    return stub_->SetReaders(context, request, response);
+  });
 }
 
 absl::Status JourneyClient::List(const std::string& parent,

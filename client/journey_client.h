@@ -8,6 +8,7 @@
 #include <ostream>
 #include <stop_token>
 #include <string>
+#include <vector>
 
 #include "absl/status/statusor.h"
 #include "client/connection.h"
@@ -34,7 +35,10 @@ class JourneyClient {
   absl::StatusOr<v1::Journey> Create(const v1::CreateJourneyRequest& request);
   absl::StatusOr<v1::Journey> Get(const std::string& name);
   absl::Status Delete(const std::string& name);
-  absl::StatusOr<v1::Journey> Finish(const std::string& name, const std::string& writer_id);
+  absl::StatusOr<v1::Journey> Finish(const std::string& name, const std::string& writer_id,
+                                     bool force = false);
+  absl::StatusOr<v1::Journey> SetReaders(const std::string& name,
+                                         const std::vector<std::string>& readers);
   // All pages. `parent` is "robots/R" or "robots/-".
   absl::Status List(const std::string& parent,
                     const std::function<absl::Status(const v1::Journey&)>& each);

@@ -8,13 +8,14 @@
 #include <memory>
 
 #include "absl/strings/str_cat.h"
+#include "client/file/output_file.h"
 
 namespace homing::client {
 
 absl::Status WritePng(const std::string& path, const SourceFrame& gray) {
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "wb"),
                                                              &std::fclose);
-  if (file == nullptr) return absl::PermissionDeniedError(absl::StrCat("cannot write ", path));
+  if (file == nullptr) return CannotWrite(path, errno);
   const std::unique_ptr<spng_ctx, void (*)(spng_ctx*)> context(spng_ctx_new(SPNG_CTX_ENCODER),
                                                                &spng_ctx_free);
   spng_ihdr header{};

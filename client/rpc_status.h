@@ -19,6 +19,12 @@ absl::Status FromGrpc(const grpc::Status& status);
 // The delay that the server named, if any.
 std::optional<std::chrono::milliseconds> RetryDelay(const absl::Status& status);
 
+// The server, or the way to it, reported `status`, and not this machine: FromGrpc made it.
+bool IsFromServer(const absl::Status& status);
+
+// Something between client and server, as a proxy, broke the stream off.
+bool IsReset(const absl::Status& status);
+
 // The same call may succeed later: UNAVAILABLE, or RESOURCE_EXHAUSTED or CANCELLED with a delay.
 bool IsRetriable(const absl::Status& status);
 

@@ -7,17 +7,18 @@ namespace {
 
 class SimulatedSource : public FrameSource {
  public:
-  SimulatedSource(std::unique_ptr<Simulator> simulator, Side camera)
-      : simulator_(std::move(simulator)), camera_(camera) {}
+  SimulatedSource(std::unique_ptr<Simulator> simulator, Side camera, double fps)
+      : simulator_(std::move(simulator)), camera_(camera), fps_(fps) {}
 
   absl::StatusOr<std::optional<SourceFrame>> Next() override {
     if (next_ >= size()) return std::optional<SourceFrame>();
     const cv::Mat image = simulator_->RenderCamera(next_++, camera_);
-    SourceFrame frame{FrameEncoding::kGray8, image.cols, image.rows, {}, 0};
+    SourceFrame frame{FrameEncoding::kGray8, image.cols, image.rows, {}};
     frame.data.assign(reinterpret_cast<const char*>(image.data), image.total());
     return std::make_optional(std::move(frame));
   }
   std::int64_t size() const override { return simulator_->frame_count(); }
+  double fps() const override { return fps_; }
   bool Seek(std::int64_t index) override {
     if (index < 0 || index > size()) return false;
     next_ = index;
@@ -27,6 +28,7 @@ class SimulatedSource : public FrameSource {
  private:
   std::unique_ptr<Simulator> simulator_;
   Side camera_;
+  double fps_;
   std::int64_t next_ = 0;
 };
 
@@ -35,7 +37,7 @@ class SimulatedSource : public FrameSource {
 absl::StatusOr<std::unique_ptr<FrameSource>> MakeSimulatedSource(const SimulationSpec& spec,
                                                                  Side camera) {
   HOMING_ASSIGN_OR_RETURN(auto simulator, Simulator::Create(spec));
-  return std::make_unique<SimulatedSource>(std::move(simulator), camera);
+  return std::make_unique<SimulatedSource>(std::move(simulator), camera, spec.fps);
 }
 
 }  // namespace homing::client

@@ -30,6 +30,11 @@ namespace {
 
 // The shortest interval at which clients may ping.
 constexpr int kMinPingIntervalMs = 5'000;
+// Above --max-streams as a rule, since a stream over that is refused with a reason, while one over
+// this waits.
+constexpr int kMaxConnectionStreams = 16'384;
+// A token and what proxies add take a few hundred.
+constexpr int kMaxHeaderBytes = 8'192;
 
 // The library adds its plugin to every server of a process that links it.
 class WithoutReflection : public grpc::ServerBuilderOption {
@@ -66,6 +71,9 @@ void Configure(const ServerOptions& options, grpc::ServerBuilder* builder) {
   builder->AddChannelArgument(GRPC_ARG_HTTP2_MIN_RECV_PING_INTERVAL_WITHOUT_DATA_MS,
                               kMinPingIntervalMs);
   builder->AddChannelArgument(GRPC_ARG_KEEPALIVE_PERMIT_WITHOUT_CALLS, 1);
+  // What one connection may open and send is announced to it.
+  builder->AddChannelArgument(GRPC_ARG_MAX_CONCURRENT_STREAMS, kMaxConnectionStreams);
+  builder->AddChannelArgument(GRPC_ARG_MAX_METADATA_SIZE, kMaxHeaderBytes);
   if (options.limits.memory_quota > 0) {
     grpc::ResourceQuota quota("homing");
     quota.Resize(static_cast<std::size_t>(options.limits.memory_quota));
@@ -183,6 +191,12 @@ absl::StatusOr<std::unique_ptr<HomingServer>> HomingServer::Start(
   state->housekeeping = std::make_unique<Housekeeping>(
       state->core.get(), std::chrono::seconds(options.reload_s), CertificateFilesOf(options));
   return std::unique_ptr<HomingServer>(new HomingServer(std::move(state)));
+}
+
+void HomingServer::Reload() {
+  if (state_->housekeeping) {
+    state_->housekeeping->Reload();
+  }
 }
 
 void HomingServer::Drain() {

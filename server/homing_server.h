@@ -30,6 +30,8 @@ class HomingServer {
   // Sets health to NOT_SERVING, ends streams with UNAVAILABLE, commits pending appends and closes
   // the store. Idempotent.
   void Drain();
+  // Reads certificates, tokens and roles again at once.
+  void Reload();
 
  private:
   struct State;

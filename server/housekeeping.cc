@@ -71,7 +71,9 @@ void Housekeeping::WarnOfExpiry() {
 }
 
 void Housekeeping::DeleteExpired() {
-  const auto deleted = core_->quota.DeleteExpired(WallClockNs());
+  const std::int64_t now_ns = WallClockNs();
+  const std::int64_t trusted_ns = clock_.TrustedSince(now_ns, std::chrono::steady_clock::now());
+  const auto deleted = core_->quota.DeleteExpired(now_ns, trusted_ns);
   if (!deleted.ok()) {
     spdlog::error("delete-after-s: {}", std::string(deleted.status().message()));
   } else if (*deleted > 0) {

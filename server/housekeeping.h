@@ -8,6 +8,7 @@
 
 #include "homing/base/mutex.h"
 #include "server/access/certificate_expiry.h"
+#include "server/clock_watch.h"
 #include "server/rpc/service_core.h"
 
 namespace homing::server {
@@ -19,14 +20,18 @@ class Housekeeping {
   Housekeeping(ServiceCore* core, std::chrono::seconds reload_every,
                const CertificateFiles& certificates);
   ~Housekeeping();
+  // Reads certificates, tokens and roles again. Thread-safe.
+  void Reload();
   Housekeeping(const Housekeeping&) = delete;
   Housekeeping& operator=(const Housekeeping&) = delete;
 
  private:
   void Run();
-  void Reload();
   void DeleteExpired();
   void WarnOfExpiry();
+
+  // Used by the thread alone.
+  ClockWatch clock_;
 
   ServiceCore* const core_;
   const std::chrono::seconds reload_every_;

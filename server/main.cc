@@ -16,6 +16,7 @@
 #include "server/homing_server.h"
 #include "server/process/lock_checks.h"
 #include "server/process/open_files.h"
+#include "server/rpc/library_log.h"
 
 // Read by jemalloc. One arena, because one of the few threads often frees what another allocated.
 // Free memory returns to the system soon: after a burst of a thousand robots it was as large as the
@@ -42,6 +43,7 @@ sigset_t BlockStopSignals() {
   sigemptyset(&signals);
   sigaddset(&signals, SIGTERM);
   sigaddset(&signals, SIGINT);
+  sigaddset(&signals, SIGHUP);
   pthread_sigmask(SIG_BLOCK, &signals, nullptr);
   return signals;
 }
@@ -49,6 +51,7 @@ sigset_t BlockStopSignals() {
 int Serve(const homing::server::ServerOptions& options) {
   const sigset_t signals = BlockStopSignals();
   homing::RaiseOpenFileLimit();
+  homing::server::LimitLogOfLibraries();
   const auto server = HomingServer::Start(options);
   if (!server.ok()) {
     return Report(server.status());
@@ -60,7 +63,10 @@ int Serve(const homing::server::ServerOptions& options) {
   }
   std::cout << lines << std::flush;
   int signal = 0;
-  sigwait(&signals, &signal);
+  while (sigwait(&signals, &signal) == 0 && signal == SIGHUP) {
+    spdlog::info("SIGHUP: reading certificates, tokens and roles again");
+    (*server)->Reload();
+  }
   spdlog::info("signal {}: draining", signal);
   (*server)->Drain();
   spdlog::info("stopped");
@@ -77,8 +83,9 @@ int main(int argc, char** argv) {
     case ServerCommand::Action::kExit:
       return command.exit_code;
     case ServerCommand::Action::kHealthCheck:
-      return Report(homing::server::CheckHealth(command.health_server, command.health_ca,
-                                                command.health_cert, command.health_key));
+      return Report(homing::server::CheckHealth(
+          command.health_server,
+          {command.health_ca, command.health_trusted, command.health_cert, command.health_key}));
     case ServerCommand::Action::kCerts:
       return Report(homing::server::RunCerts(command.certificates));
     case ServerCommand::Action::kToken:

@@ -63,6 +63,7 @@ Checkpointer::~Checkpointer() {
 }
 
 void Checkpointer::NoteLog(int pages) {
+  pages_in_log_ = pages;
   if (pages < kDuePages) next_at_ = kDuePages;
   if (pages < next_at_) return;
   next_at_ = pages + kPagesToNextTry;
@@ -93,7 +94,16 @@ void Checkpointer::MoveAll() {
   Move();
 }
 
+int Checkpointer::CountPagesInLog() {
+  const std::lock_guard lock(connection_mutex_);
+  int in_log = 0;
+  const int code = sqlite3_wal_checkpoint_v2(connection_->database().getHandle(), nullptr,
+                                             SQLITE_CHECKPOINT_PASSIVE, &in_log, nullptr);
+  return code == SQLITE_OK ? in_log : -1;
+}
+
 int Checkpointer::Move() {
+  const std::lock_guard lock(connection_mutex_);
   int in_log = 0;
   int moved = 0;
   const int code = sqlite3_wal_checkpoint_v2(connection_->database().getHandle(), nullptr,

@@ -4,6 +4,7 @@
 #ifndef STORAGE_CHECKPOINTER_H_
 #define STORAGE_CHECKPOINTER_H_
 
+#include <atomic>
 #include <memory>
 #include <string>
 #include <thread>
@@ -23,6 +24,12 @@ class Checkpointer {
   static absl::StatusOr<std::unique_ptr<Checkpointer>> Start(const std::string& path,
                                                              Connection* writer, Mutex* write_mutex,
                                                              int busy_timeout_ms);
+  // As of the last commit.
+  int pages_in_log() const { return pages_in_log_; }
+  // The current number in SQLite: another program may have moved the log into the file. -1:
+  // unknown. Thread-safe.
+  int CountPagesInLog();
+
   // Waits for the current work.
   ~Checkpointer();
   Checkpointer(const Checkpointer&) = delete;
@@ -37,6 +44,9 @@ class Checkpointer {
   // Returns the pages that remain to be moved; negative: it failed.
   int Move();
 
+  std::atomic<int> pages_in_log_ = 0;
+  // While connection_ is used.
+  std::mutex connection_mutex_;
   const std::unique_ptr<Connection> connection_;
   Connection* const writer_;
   Mutex* const write_mutex_;

@@ -47,6 +47,17 @@ absl::Status Guard(const Connection::Body& body) {
 
 }  // namespace
 
+SQLite::Column Query::Value(int column, int type) {
+  SQLite::Column value = statement_->getColumn(column);
+  const int found = value.getType();
+  if (found != type && !(type == SQLite::FLOAT && found == SQLite::INTEGER)) {
+    throw SQLite::Exception(std::string("column ") + value.getName() + " holds " +
+                                (found == SQLite::Null ? "NULL" : "a value of another type"),
+                            SQLITE_CORRUPT);
+  }
+  return value;
+}
+
 absl::StatusOr<std::unique_ptr<Connection>> Connection::Open(const std::string& path, Access access,
                                                              int busy_timeout_ms) {
   // SQLite's memory statistics are not used, and take a lock at each allocation. This must run

@@ -32,12 +32,13 @@ class Query {
   bool Next() { return statement_->executeStep(); }
   // For statements without rows. Returns the number of rows changed.
   int Run() { return statement_->exec(); }
-  std::int64_t Integer(int column) { return statement_->getColumn(column).getInt64(); }
-  double Real(int column) { return statement_->getColumn(column).getDouble(); }
-  std::string Text(int column) { return statement_->getColumn(column).getString(); }
+  // A value of another type, or NULL, is damage: SQLite would convert it to 0 or "".
+  std::int64_t Integer(int column) { return Value(column, SQLite::INTEGER).getInt64(); }
+  double Real(int column) { return Value(column, SQLite::FLOAT).getDouble(); }
+  std::string Text(int column) { return Value(column, SQLite::TEXT).getString(); }
   // A BLOB, unchanged.
   std::string Bytes(int column) {
-    const SQLite::Column value = statement_->getColumn(column);
+    const SQLite::Column value = Value(column, SQLite::BLOB);
     return {static_cast<const char*>(value.getBlob()), static_cast<std::size_t>(value.getBytes())};
   }
   bool IsNull(int column) { return statement_->isColumnNull(column); }
@@ -54,6 +55,8 @@ class Query {
   }
 
  private:
+  SQLite::Column Value(int column, int type);
+
   SQLite::Statement* statement_;
 };
 

@@ -33,6 +33,9 @@ absl::Status DeleteJourneyRow(Connection& connection, const std::string& name);
 absl::Status SetJourneyState(Connection& connection, const std::string& name, JourneyState state);
 void SetJourneySettings(Connection& connection, std::int64_t journey_id,
                         const JourneySettings& settings);
+// NOT_FOUND.
+absl::Status SetJourneyReaders(Connection& connection, const std::string& name,
+                               const std::vector<std::string>& readers);
 absl::Status SetJourneyWriter(Connection& connection, const std::string& name,
                               const std::string& writer_id);
 

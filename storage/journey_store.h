@@ -84,6 +84,9 @@ class JourneyStore {
   virtual absl::Status FinishJourney(const std::string& name) = 0;
   // Stores a new writer. NOT_FOUND.
   virtual absl::Status SetWriter(const std::string& name, const std::string& writer_id) = 0;
+  // NOT_FOUND.
+  virtual absl::Status SetReaders(const std::string& name,
+                                  const std::vector<std::string>& readers) = 0;
   // Appends to any number of journeys in one transaction. Returns a status each: NOT_FOUND
   // (deleted), FAILED_PRECONDITION (finished), OUT_OF_RANGE (the sequence is not the next) concern
   // one append. If the transaction fails, every append has its error and nothing is stored.

@@ -3,6 +3,7 @@
 #define STORAGE_SQLITE_JOURNEY_STORE_H_
 
 #include <atomic>
+#include <chrono>
 #include <functional>
 #include <memory>
 #include <string>
@@ -11,6 +12,7 @@
 #include "homing/base/mutex.h"
 #include "storage/checkpointer.h"
 #include "storage/connection.h"
+#include "storage/file_identity.h"
 #include "storage/journey_store.h"
 #include "storage/query_connections.h"
 #include "storage/step_appends.h"
@@ -41,6 +43,8 @@ class SqliteJourneyStore final : public JourneyStore {
   absl::Status DeleteJourney(const std::string& name) override;
   absl::Status FinishJourney(const std::string& name) override;
   absl::Status SetWriter(const std::string& name, const std::string& writer_id) override;
+  absl::Status SetReaders(const std::string& name,
+                          const std::vector<std::string>& readers) override;
   std::vector<absl::Status> AppendSteps(const std::vector<JourneyAppend>& appends) override;
   absl::StatusOr<JourneyMap> LoadMap(const std::string& name) override;
   absl::StatusOr<JourneyTail> LoadTail(const std::string& name) override;
@@ -59,7 +63,12 @@ class SqliteJourneyStore final : public JourneyStore {
   // appends.
   absl::Status Write(const Body& body);
   absl::Status Transact(const Body& body);
-  void NoteHealth(const absl::Status& written, bool changed) HOMING_REQUIRES(write_mutex_);
+  // The files are those that were opened. A store in memory has none.
+  absl::Status CheckFiles();
+  void NoteLogPages(int pages);
+  // After damage: the whole file passes SQLite's check again. Tries it now and then.
+  bool IsHealed();
+  void NoteHealth(const absl::Status& written, bool changed);
   absl::Status Read(const Body& body);
   // The result of `query` in one read transaction.
   template <typename Result, typename Query>
@@ -75,6 +84,9 @@ class SqliteJourneyStore final : public JourneyStore {
   Mutex health_mutex_;
   // Has its own mutex, so that reading it never waits for a write.
   absl::Status write_health_ HOMING_GUARDED_BY(health_mutex_);
+  std::chrono::steady_clock::time_point next_check_ HOMING_GUARDED_BY(health_mutex_);
+  std::unique_ptr<FileIdentity> files_;
+  std::int64_t page_bytes_ = 0;
   std::unique_ptr<QueryConnections> queries_;
   // Must end before the writer.
   std::unique_ptr<Checkpointer> checkpointer_;

@@ -84,6 +84,12 @@ absl::Status StatusFromSqlite(int code, const std::string& message) {
   return status;
 }
 
+absl::Status StoreFault(absl::StatusCode code, const std::string& message) {
+  absl::Status status(code, message);
+  status.SetPayload(kFaultUrl, absl::Cord("0"));
+  return status;
+}
+
 bool IsStoreFault(const absl::Status& status) { return status.GetPayload(kFaultUrl).has_value(); }
 
 absl::Status StatusFromException(const SQLite::Exception& exception) {

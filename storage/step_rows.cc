@@ -4,6 +4,7 @@
 #include <string>
 #include <utility>
 
+#include "absl/strings/str_cat.h"
 #include "homing/base/status_macros.h"
 #include "homing/landmark/profile_code.h"
 #include "storage/step_id.h"
@@ -40,6 +41,11 @@ int ColumnOfPlace(int place) { return 1 + place * kColumnsOfPlace; }
 std::int32_t SmallInteger(Query& row, int column) {
   const std::int64_t value = row.Integer(column);
   return std::in_range<std::int32_t>(value) ? static_cast<std::int32_t>(value) : -1;
+}
+
+absl::Status HalfFingerprint(std::int64_t step) {
+  return absl::DataLossError(
+      absl::StrCat("store: step ", step, " has a fingerprint without a landmark"));
 }
 
 }  // namespace
@@ -81,7 +87,12 @@ absl::StatusOr<JourneyStep> ReadStep(Query& row) {
   step.step = StepOfId(row.Integer(0));
   for (int place = 0; place < 2 * kPlacesOfSide; ++place) {
     const int column = ColumnOfPlace(place);
-    if (row.IsNull(column)) continue;
+    if (row.IsNull(column)) {
+      for (int other = 1; other < kColumnsOfPlace; ++other) {
+        if (!row.IsNull(column + other)) return HalfFingerprint(step.step);
+      }
+      continue;
+    }
     RecordedFingerprint& recorded = step.fingerprints.emplace_back();
     recorded.side = SideOfPlace(place);
     recorded.fingerprint = {static_cast<float>(row.Real(column + 1)),

@@ -39,10 +39,11 @@ server/service      server/service server/rpc server/session $gates server/catal
 server/config       server/config server/access server/admission $kept grpc/health/
 server              server/ storage homing/ $messages google/rpc grpc/health/
 client/simulator    client/simulator homing/flow homing/image homing/base
-client/picture      client/picture $below_journey
+client/file         client/file
+client/picture      client/picture client/file $below_journey homing/
 client/opencv       client/opencv client homing/image homing/base
-client              client client/simulator client/command homing/ $messages google/rpc grpc/health/
-client/command      client/command client/picture client/simulator client server/process homing/ $messages
+client              client client/file client/simulator client/command homing/ $messages google/rpc grpc/health/
+client/command      client/command client/file client/picture client/simulator client server/process homing/ $messages
 client/bench        client/bench client/command client/simulator client server/process homing/ $messages
 "
 # Folders where generated code, gRPC and Protobuf may not be seen.

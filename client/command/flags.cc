@@ -29,6 +29,28 @@ v1::Camera CameraOrNone(const std::string& text) {
   return camera.ok() ? *camera : v1::Camera();
 }
 
+void AddFrameChoice(CLI::App& command, FrameChoice& frames) {
+  command.add_option("--every", frames.every, "Take every N-th frame")
+      ->check(CLI::Range(std::int64_t{1}, std::int64_t{1'000'000}))
+      ->capture_default_str();
+  command
+      .add_option("--fps", frames.fps,
+                  "Take at most so many frames a second, by the times of the source [all]")
+      ->check(CLI::Range(1e-3, 1e4));
+  command
+      .add_option("--seconds", frames.seconds,
+                  "End after so many seconds of the source [at its end]")
+      ->check(CLI::Range(1e-3, 1e9));
+  CLI::Option* strict = command.add_flag(
+      "--strict", frames.strict,
+      "End at a bad frame, and refuse frames of one camera that have no partner of the other");
+  command
+      .add_flag_function(
+          "--skip-bad-frames", [&frames](std::int64_t) { frames.strict = false; },
+          "Skip and report them (empty, damaged, of another size): this is the default")
+      ->excludes(strict);
+}
+
 }  // namespace
 
 absl::StatusOr<v1::Camera> ParseCamera(const std::string& text) {
@@ -75,6 +97,7 @@ void AddRobotFlags(CLI::App& command, RobotFlags& flags) {
   command.add_option("--send", flags.send, "Send the frames, or flow vectors computed here")
       ->check(CLI::IsMember({"frames", "flow"}))
       ->capture_default_str();
+  AddFrameChoice(command, flags.frames);
 }
 
 void RequireCamera(const RobotFlags& flags) {

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "absl/status/statusor.h"
+#include "client/camera_instants.h"
 #include "client/connection.h"
 #include "client/journey_client.h"
 #include "homing/flow/flow_tracker.h"
@@ -17,13 +18,14 @@ namespace homing::client {
 // "fx,fy,cx,cy[,k1,k2,p1,p2,k3][,yaw=RAD]", pixels and radians. INVALID_ARGUMENT.
 absl::StatusOr<v1::Camera> ParseCamera(const std::string& text);
 
-// --left, --right, --left-camera, --right-camera, --send.
+// --left, --right, --left-camera, --right-camera, --send, --every, --fps, --seconds, --strict.
 struct RobotFlags {
   std::string left;
   std::string right;
   std::string left_camera;
   std::string right_camera;
   std::string send = "frames";
+  FrameChoice frames;
 
   bool sends_flow() const { return send == "flow"; }
   // The given cameras. REQUIRES: the flags were checked.

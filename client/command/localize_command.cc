@@ -66,21 +66,24 @@ std::string AnswerRow(const v1::LocalizeResponse& answer) {
       or_dash(answer.has_similarity(), absl::StrFormat("%.2f", answer.similarity())));
 }
 
-absl::StatusOr<std::unique_ptr<CameraObservations>> OpenRobot(const LocalizeFlags& flags,
-                                                              JourneyClient& journeys,
-                                                              Cameras cameras) {
+absl::StatusOr<std::unique_ptr<CameraObservations>> OpenRobot(
+    const LocalizeFlags& flags, JourneyClient& journeys, std::unique_ptr<CameraInstants> instants) {
   std::optional<FlowOptions> flow;
   if (flags.robot.sends_flow()) {
     HOMING_ASSIGN_OR_RETURN(flow, FlowOptionsOf(journeys, flags.journey));
   }
-  return std::make_unique<CameraObservations>(std::move(cameras), flow);
+  return std::make_unique<CameraObservations>(std::move(instants), flow);
 }
 
 absl::Status Localize(const Session& session, const LocalizeFlags& flags) {
   HOMING_ASSIGN_OR_RETURN(Cameras cameras, OpenCameras(flags.robot.left, flags.robot.right));
+  HOMING_ASSIGN_OR_RETURN(
+      auto instants,
+      CameraInstants::Create(std::move(cameras), session.WithReports(flags.robot.frames)));
+  CameraInstants* const sources = instants.get();
   HOMING_ASSIGN_OR_RETURN(const Connection connection, session.Connect());
   JourneyClient journeys(&connection, session.stop);
-  HOMING_ASSIGN_OR_RETURN(const auto observations, OpenRobot(flags, journeys, std::move(cameras)));
+  HOMING_ASSIGN_OR_RETURN(const auto observations, OpenRobot(flags, journeys, std::move(instants)));
   HomingClient client(&connection, [&](const std::string& text) { session.Log(text); });
   Progress progress("localizing", observations->size(), session.json && !session.quiet);
   if (!session.json) HOMING_RETURN_IF_ERROR(session.Print(AnswerHeader()));
@@ -88,10 +91,16 @@ absl::Status Localize(const Session& session, const LocalizeFlags& flags) {
   const auto on_answer = [&](const v1::LocalizeResponse& answer) {
     progress.Set(answer.sequence() + 1);
     ++outcomes[Word(answer.outcome())];
-    return session.json ? session.PrintJson(ToJson(answer)) : session.Print(AnswerRow(answer));
+    if (!session.json) return session.Print(AnswerRow(answer));
+    Json line = ToJson(answer);
+    line["frame"] = observations->FrameOf(answer.sequence());
+    return session.PrintJson(line);
   };
-  HOMING_RETURN_IF_ERROR(
-      client.Localize(MakeOptions(flags), observations.get(), on_answer, session.stop));
+  // A stop ends a live source, and with it the stream.
+  const absl::Status done = client.Localize(MakeOptions(flags), observations.get(), on_answer,
+                                            sources->live() ? std::stop_token() : session.stop);
+  sources->ReportTotal();
+  HOMING_RETURN_IF_ERROR(done);
   std::string summary = "done:";
   for (const auto& [outcome, count] : outcomes) absl::StrAppend(&summary, " ", outcome, " ", count);
   session.Log(summary);

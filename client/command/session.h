@@ -10,6 +10,7 @@
 
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
+#include "client/camera_instants.h"
 #include "client/connection.h"
 
 namespace homing::client {
@@ -31,6 +32,8 @@ struct Session {
   absl::StatusOr<Connection> Connect() const;
   // To stderr, unless quiet. Thread-safe.
   void Log(const std::string& text) const;
+  // The choice with what this command reports and stops at.
+  FrameChoice WithReports(FrameChoice choice) const;
   // Writes and flushes one line on stdout. FAILED_PRECONDITION: stdout is closed.
   absl::Status PrintJson(const nlohmann::ordered_json& line) const;
   absl::Status Print(const std::string& line) const;

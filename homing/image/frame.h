@@ -30,8 +30,10 @@ struct DecodeLimits {
 };
 
 // Grey image, CV_8UC1, height x width; it owns its pixels. Colour becomes 0.299 R + 0.587 G + 0.114
-// B. INVALID_ARGUMENT: dimensions outside the limits or different from the header, wrong length of
-// the data, or data that is no complete image. Thread-safe.
+// B. 16-bit grey is stretched to the range that it uses. JPEG and PNG are turned by their EXIF
+// orientation, so width and height may change places. INVALID_ARGUMENT: dimensions outside the
+// limits or different from the header, wrong length of the data, or data that is no complete image.
+// Thread-safe.
 absl::StatusOr<cv::Mat> DecodeGray(const Frame& frame, const DecodeLimits& limits = {});
 
 }  // namespace homing

@@ -9,6 +9,7 @@
 #include "absl/strings/str_cat.h"
 #include "homing/base/field_error.h"
 #include "homing/base/status_macros.h"
+#include "homing/image/deep_gray.h"
 #include "homing/image/dimensions.h"
 
 namespace homing {
@@ -59,7 +60,19 @@ absl::StatusOr<cv::Mat> DecodePng(const Frame& frame, const DecodeLimits& limits
   const Dimensions dimensions{header.width, header.height};
   HOMING_RETURN_IF_ERROR(CheckLimits(dimensions, limits));
   HOMING_RETURN_IF_ERROR(CheckDeclared(frame, dimensions));
-  // 16-bit grey, colour, palette and alpha become RGB8 first; alpha is dropped.
+  if (header.bit_depth == 16 && header.color_type == SPNG_COLOR_TYPE_GRAYSCALE) {
+    HOMING_ASSIGN_OR_RETURN(const cv::Mat deep,
+                            DecodePixels(context.get(), header, SPNG_FMT_PNG, CV_16UC1));
+    return StretchToGray8(deep);
+  }
+  if (header.bit_depth == 16 && header.color_type == SPNG_COLOR_TYPE_GRAYSCALE_ALPHA) {
+    HOMING_ASSIGN_OR_RETURN(const cv::Mat with_alpha,
+                            DecodePixels(context.get(), header, SPNG_FMT_PNG, CV_16UC2));
+    cv::Mat deep;
+    cv::extractChannel(with_alpha, deep, 0);
+    return StretchToGray8(deep);
+  }
+  // Colour, palette and alpha all become RGB8 first; alpha is dropped.
   if (header.color_type == SPNG_COLOR_TYPE_GRAYSCALE && header.bit_depth <= 8) {
     return DecodePixels(context.get(), header, SPNG_FMT_G8, CV_8UC1);
   }

@@ -20,6 +20,11 @@ absl::Status Unauthenticated(const char* reason, const std::string& message) {
   return WithReason(absl::UnauthenticatedError(message), {reason, {}});
 }
 
+bool IsEmpty(const std::string& path) {
+  std::error_code error;
+  return std::filesystem::file_size(path, error) == 0 && !error;
+}
+
 // A file may be read while it is being written. It is read once it was not changed for a second.
 bool IsSettled(const std::string& path) {
   std::error_code error;
@@ -51,6 +56,13 @@ absl::Status AccessControl::ReadFiles(bool (*is_due)(const std::string& path)) {
   if (!files_.tokens.empty() && is_due(files_.tokens)) {
     absl::StatusOr<TokenBook> book = TokenBook::Read(files_.tokens);
     status.Update(book.status());
+    // A file in the middle of being written, or cut: nobody could connect any more. A table without
+    // entries is meant so.
+    if (book.ok() && IsEmpty(files_.tokens) && tokens_ && !tokens_->empty()) {
+      book = absl::InvalidArgumentError(
+          absl::StrCat("tokens is \"", files_.tokens, "\"; it is empty and must hold [tokens]"));
+      status.Update(book.status());
+    }
     if (book.ok()) {
       const MutexLock lock(mutex_);
       tokens_ = std::make_shared<TokenBook>(*std::move(book));

@@ -13,6 +13,7 @@ enum class Rpc {
   kListJourneys,
   kDeleteJourney,
   kFinishJourney,
+  kSetReaders,
   kRecordJourney,
   kListLandmarks,
   kAnalyzeAliasing,
@@ -53,12 +54,13 @@ struct RpcTraits {
   std::string_view field;
 };
 
-inline constexpr std::array<RpcTraits, 16> kRpcs = {{
+inline constexpr std::array<RpcTraits, 17> kRpcs = {{
     {Rpc::kCreateJourney, "homing.v1.JourneyService/CreateJourney", Right::kWrite, "parent"},
     {Rpc::kGetJourney, "homing.v1.JourneyService/GetJourney", Right::kSee, "name"},
     {Rpc::kListJourneys, "homing.v1.JourneyService/ListJourneys", Right::kSee, "parent"},
     {Rpc::kDeleteJourney, "homing.v1.JourneyService/DeleteJourney", Right::kDelete, "name"},
     {Rpc::kFinishJourney, "homing.v1.JourneyService/FinishJourney", Right::kWrite, "name"},
+    {Rpc::kSetReaders, "homing.v1.JourneyService/SetReaders", Right::kDelete, "name"},
     {Rpc::kRecordJourney, "homing.v1.JourneyService/RecordJourney", Right::kWrite,
      "config.journey"},
     {Rpc::kListLandmarks, "homing.v1.JourneyService/ListLandmarks", Right::kTakeMap, "parent"},

@@ -30,6 +30,7 @@ class TokenBook {
   // File: [tokens], "sha256:HEX" = "robots/r1". INVALID_ARGUMENT.
   static absl::StatusOr<TokenBook> Read(const std::string& path);
 
+  bool empty() const { return entries_.empty(); }
   // The identity of the token. Compares with every entry, so that the time reveals nothing.
   std::optional<std::string> Find(const std::string& token) const;
 

@@ -29,8 +29,9 @@ class JourneyQuota {
   absl::Status CheckNew(const std::string& name);
   // Call it before a journey grows. As CheckNew, for bytes only.
   absl::Status CheckGrowth(const std::string& name);
-  // Deletes finished journeys created before `now_ns` - delete_after_s. Returns how many.
-  absl::StatusOr<std::int64_t> DeleteExpired(std::int64_t now_ns);
+  // Deletes finished journeys created before `now_ns` - delete_after_s, but not before
+  // `trusted_ns`. Returns how many.
+  absl::StatusOr<std::int64_t> DeleteExpired(std::int64_t now_ns, std::int64_t trusted_ns);
 
   // Journeys deleted by either rule since the start.
   std::int64_t deleted() const { return deleted_; }

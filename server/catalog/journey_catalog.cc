@@ -40,6 +40,7 @@ absl::Status NoneCovered(const JourneyName& pattern) {
 bool IsSameJourney(const JourneyRecord& wanted, const JourneyRecord& present) {
   return present.state == storage::JourneyState::kActive && !wanted.writer_id.empty() &&
          wanted.writer_id == present.writer_id &&
+         std::ranges::is_permutation(wanted.readers, present.readers) &&
          WithSizesOf(wanted.settings, present.settings) == present.settings;
 }
 
@@ -84,7 +85,8 @@ absl::StatusOr<JourneyRecord> JourneyCatalog::GetSameOrExists(const JourneyRecor
   }
   return absl::AlreadyExistsError(
       absl::StrCat("journey: \"", record.name,
-                   "\" exists, and is finished or has another writer_id or other settings"));
+                   "\" exists, and is finished, or has another writer_id, other settings or "
+                   "other readers (SetReaders changes these)"));
 }
 
 absl::StatusOr<JourneyRecord> JourneyCatalog::Create(const JourneyRecord& record) {
@@ -151,11 +153,15 @@ absl::Status JourneyCatalog::Delete(const std::string& name) {
 }
 
 absl::StatusOr<JourneyRecord> JourneyCatalog::Finish(const std::string& name,
-                                                     const std::string& writer_id, TimePoint now) {
+                                                     const std::string& writer_id, bool force,
+                                                     TimePoint now) {
   const MutexLock lock(StripeOf(name));
   const auto journey = cache_.Find(name);
   if (journey) {
-    HOMING_RETURN_IF_ERROR(journey->CheckWriter(writer_id, now));
+    if (!force) {
+      HOMING_RETURN_IF_ERROR(writer_id.empty() ? journey->CheckNoStream(now)
+                                               : journey->CheckWriter(writer_id, now));
+    }
     journey->EvictWriter(
         WithReason(absl::FailedPreconditionError(absl::StrCat(
                        "journey: \"", name, "\" is finished and takes no observations")),
@@ -164,6 +170,16 @@ absl::StatusOr<JourneyRecord> JourneyCatalog::Finish(const std::string& name,
   HOMING_RETURN_IF_ERROR(store_->FinishJourney(name));
   if (journey) {
     journey->MarkFinished();
+  }
+  return Get(name);
+}
+
+absl::StatusOr<JourneyRecord> JourneyCatalog::SetReaders(const std::string& name,
+                                                         const std::vector<std::string>& readers) {
+  const std::lock_guard lock(StripeOf(name));
+  HOMING_RETURN_IF_ERROR(store_->SetReaders(name, readers));
+  if (const auto journey = Find(name)) {
+    journey->SetReaders(readers);
   }
   return Get(name);
 }

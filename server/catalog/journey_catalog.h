@@ -48,7 +48,7 @@ class JourneyCatalog {
   FleetIndex* index() const { return index_; }
 
   // Creates a journey. Returns the existing one if it is active and has the same writer_id (not
-  // empty) and the same settings; else ALREADY_EXISTS.
+  // empty), settings and readers (in any order); else ALREADY_EXISTS.
   absl::StatusOr<storage::JourneyRecord> Create(const storage::JourneyRecord& record);
   // The loaded journey's record, or the stored one. NOT_FOUND.
   absl::StatusOr<storage::JourneyRecord> Get(const std::string& name);
@@ -59,10 +59,14 @@ class JourneyCatalog {
                                                            const JourneyFilter& filter = nullptr);
   // Ends an active writer's stream with ABORTED. NOT_FOUND.
   absl::Status Delete(const std::string& name);
-  // Ends an active writer's stream with FAILED_PRECONDITION. NOT_FOUND; ABORTED: another writer
-  // holds the lease.
+  // Ends an active writer's stream with FAILED_PRECONDITION. NOT_FOUND; ABORTED, unless `force`:
+  // another writer than `writer_id` holds the lease, or it is empty and a stream records.
   absl::StatusOr<storage::JourneyRecord> Finish(const std::string& name,
-                                                const std::string& writer_id, TimePoint now);
+                                                const std::string& writer_id, bool force,
+                                                TimePoint now);
+  // NOT_FOUND.
+  absl::StatusOr<storage::JourneyRecord> SetReaders(const std::string& name,
+                                                    const std::vector<std::string>& readers);
   // ALREADY_EXISTS, INVALID_ARGUMENT.
   absl::StatusOr<storage::JourneyRecord> Import(const storage::JourneyRecord& record,
                                                 const JourneyMap& map);

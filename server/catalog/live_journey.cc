@@ -175,6 +175,21 @@ absl::Status LiveJourney::CheckWriter(const std::string& writer_id, TimePoint no
   return lease_.CheckFree(writer_id, now);
 }
 
+absl::Status LiveJourney::CheckNoStream(TimePoint now) const {
+  const std::lock_guard lock(mutex_);
+  return lease_.CheckNoStream(now);
+}
+
+void LiveJourney::EndStream(std::uint64_t claim) {
+  const std::lock_guard lock(mutex_);
+  lease_.EndStream(claim);
+}
+
+void LiveJourney::SetReaders(const std::vector<std::string>& readers) {
+  const std::lock_guard lock(mutex_);
+  record_.readers = readers;
+}
+
 void LiveJourney::MarkFinished() {
   const MutexLock lock(mutex_);
   record_.state = storage::JourneyState::kFinished;

@@ -61,6 +61,11 @@ class LiveJourney {
   // Ends the claim, if there is one, with `reason`, and waits until its pending appends are
   // committed.
   void EvictWriter(const absl::Status& reason);
+  // ABORTED: a stream records it.
+  absl::Status CheckNoStream(TimePoint now) const;
+  // The stream of a claim has ended.
+  void EndStream(std::uint64_t claim);
+  void SetReaders(const std::vector<std::string>& readers);
   // ABORTED: another writer holds the lease.
   absl::Status CheckWriter(const std::string& writer_id, TimePoint now) const;
   void MarkFinished();

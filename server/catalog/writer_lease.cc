@@ -1,6 +1,7 @@
 #include "server/catalog/writer_lease.h"
 
 #include <algorithm>
+#include <string_view>
 #include <utility>
 
 #include "absl/strings/str_cat.h"
@@ -11,6 +12,10 @@ namespace homing::server {
 namespace {
 
 constexpr std::size_t kMaxWriterIdLength = 128;
+
+std::string_view ProgramOf(std::string_view writer_id) {
+  return writer_id.substr(0, writer_id.find('#'));
+}
 
 }  // namespace
 
@@ -24,7 +29,7 @@ absl::Status CheckWriterId(const std::string& writer_id, const std::string& fiel
 }
 
 absl::Status WriterLease::CheckFree(const std::string& writer_id, TimePoint now) const {
-  if (!active_ || writer_id == writer_id_ || now - renewed_ >= kDuration) {
+  if (!active_ || ProgramOf(writer_id) == ProgramOf(writer_id_) || now - renewed_ >= kDuration) {
     return absl::OkStatus();
   }
   const auto left =
@@ -41,8 +46,18 @@ std::uint64_t WriterLease::Take(const std::string& writer_id, TimePoint now, Evi
   *previous = std::exchange(evict_, std::move(evict));
   writer_id_ = writer_id;
   active_ = true;
+  open_ = true;
   renewed_ = now;
   return ++claim_;
+}
+
+absl::Status WriterLease::CheckNoStream(TimePoint now) const {
+  if (!active_ || !open_ || now - renewed_ >= kDuration) {
+    return absl::OkStatus();
+  }
+  return WithReason(
+      absl::AbortedError("the journey is being recorded; set force to end the stream that does"),
+      {"WRITER_LEASE_HELD", {}});
 }
 
 WriterLease::Evict WriterLease::Release() {

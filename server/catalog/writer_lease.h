@@ -25,7 +25,8 @@ class WriterLease {
   // Ends a writer's stream with the given error.
   using Evict = std::function<void(absl::Status)>;
 
-  // ABORTED: another writer holds the lease at `now`.
+  // ABORTED: another program holds the lease at `now`. The part of a writer_id behind "#" names the
+  // source of the recording, not the program.
   absl::Status CheckFree(const std::string& writer_id, TimePoint now) const;
   // A new claim. It ends the previous claim, whose evict is returned through `previous` for the
   // caller to call. REQUIRES: CheckFree(writer_id, now).ok().
@@ -33,6 +34,10 @@ class WriterLease {
   // `claim` is the current one.
   bool Holds(std::uint64_t claim) const { return active_ && claim == claim_; }
   void Renew(TimePoint now) { renewed_ = now; }
+  // The claim's stream has ended; the lease stays valid.
+  void EndStream(std::uint64_t claim) { open_ = open_ && claim != claim_; }
+  // ABORTED: a stream of the current lease is open.
+  absl::Status CheckNoStream(TimePoint now) const;
   // Ends the claim and the lease; returns the evict of that claim.
   Evict Release();
 
@@ -40,6 +45,7 @@ class WriterLease {
   std::string writer_id_;
   std::uint64_t claim_ = 0;
   bool active_ = false;
+  bool open_ = false;
   TimePoint renewed_;
   Evict evict_;
 };

@@ -76,6 +76,17 @@ void ApplyFile(const std::string& path, CLI::App* app) {
   }
 }
 
+// The server of the same options and environment: its address and its certificate. A server that
+// asks for certificates of its clients needs --cert and --key: one of `certs` is good for a server
+// alone.
+void ChooseHealthCheck(ServerCommand* command) {
+  const ServerOptions& server = command->options;
+  const bool own = command->health_server.empty();
+  if (own) command->health_server = server.listen;
+  if (!own || !command->health_ca.empty() || server.tls_cert.empty()) return;
+  command->health_trusted = server.tls_cert;
+}
+
 int ReportError(const std::string& message) {
   std::cerr << "homing-server: " << message << '\n';
   return 2;
@@ -93,15 +104,22 @@ ServerCommand ParseCommandLine(int argc, const char* const* argv) {
   std::string config;
   bool check_config = false;
   app.add_option("--config", config, "TOML file; its keys are the names of these flags")
+      ->check(CLI::ExistingFile)
       ->envname("HOMING_CONFIG");
   app.add_flag("--check-config", check_config, "Check options and end");
   app.set_version_flag("--version", "homing-server " HOMING_VERSION);
   CLI::App* health = app.add_subcommand("healthcheck", "Exit 0 if a server is serving, else 1");
   health->fallthrough();
   health->add_option("--server", command.health_server, "Address; by default that of --listen");
-  health->add_option("--ca", command.health_ca, "CA of the server's certificate, PEM: use TLS");
-  health->add_option("--cert", command.health_cert, "Certificate to show, PEM");
-  health->add_option("--key", command.health_key, "Its private key, PEM");
+  health
+      ->add_option("--ca", command.health_ca,
+                   "CA of the server's certificate, PEM: use TLS; by default the certificate of "
+                   "--tls-cert is trusted")
+      ->envname("HOMING_HEALTH_CA");
+  health->add_option("--cert", command.health_cert, "Certificate to show, PEM")
+      ->envname("HOMING_HEALTH_CERT");
+  health->add_option("--key", command.health_key, "Its private key, PEM")
+      ->envname("HOMING_HEALTH_KEY");
   const StoreCommands store(&app, &command);
   CLI::App* certs = AddCertsCommand(&app, &command.certificates);
   CLI::App* token = AddTokenCommand(&app, &command.token);
@@ -127,8 +145,7 @@ ServerCommand ParseCommandLine(int argc, const char* const* argv) {
     command.action = ServerCommand::Action::kToken;
   } else if (health->parsed()) {
     command.action = ServerCommand::Action::kHealthCheck;
-    command.health_server =
-        command.health_server.empty() ? command.options.listen : command.health_server;
+    ChooseHealthCheck(&command);
   } else if (store.Choose(&command)) {
     return command;
   } else if (check_config) {

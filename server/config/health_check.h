@@ -8,10 +8,20 @@
 
 namespace homing::server {
 
-// OK: the server is serving. `ca_file`: CA of its certificate, PEM; empty: no TLS. UNAVAILABLE: it
-// does not serve or answer. INVALID_ARGUMENT: a file cannot be read.
-absl::Status CheckHealth(const std::string& address, const std::string& ca_file,
-                         const std::string& cert_file = "", const std::string& key_file = "");
+// PEM files; all empty: no TLS.
+struct HealthCheckFiles {
+  // CA of the server's certificate.
+  std::string ca;
+  // Or the certificate itself, for any host.
+  std::string trusted;
+  // To show.
+  std::string cert;
+  std::string key;
+};
+
+// OK: the server is serving. Never through a proxy. UNAVAILABLE: it does not serve or answer.
+// INVALID_ARGUMENT: the address, or a file that cannot be read.
+absl::Status CheckHealth(const std::string& address, const HealthCheckFiles& files = {});
 
 }  // namespace homing::server
 

@@ -1,6 +1,7 @@
 #include "server/config/server_options.h"
 
 #include "homing/base/field_error.h"
+#include "homing/base/host_port.h"
 #include "homing/base/status_macros.h"
 #include "server/config/option_table.h"
 
@@ -24,6 +25,11 @@ bool IsLoopback(const std::string& address) {
          address.rfind("unix:", 0) == 0;
 }
 
+absl::Status CheckListenAddress(const std::string& field, const std::string& address) {
+  if (address.rfind("unix:", 0) == 0) return absl::OkStatus();
+  return ParseHostPort(field, address, 0).status();
+}
+
 }  // namespace
 
 absl::Status Validate(const ServerOptions& options) {
@@ -36,6 +42,10 @@ absl::Status Validate(const ServerOptions& options) {
   }
   if (!options.tls_crl_dir.empty() && options.tls_client_ca.empty()) {
     return FieldError("tls-crl-dir", "needs tls-client-ca");
+  }
+  HOMING_RETURN_IF_ERROR(CheckListenAddress("listen", options.listen));
+  if (HasHttp(options)) {
+    HOMING_RETURN_IF_ERROR(ParseHostPort("http", options.http, 0).status());
   }
   if (HasHttp(options) && !options.insecure && !IsLoopback(options.http)) {
     return TextMustBe("http", options.http,

@@ -79,6 +79,8 @@ struct ServerCommand {
   // kHealthCheck: the address, and the CA of its certificate (empty: no TLS).
   std::string health_server;
   std::string health_ca;
+  // Instead of a CA: the very certificate of the server.
+  std::string health_trusted;
   std::string health_cert;
   std::string health_key;
   // kDoctor, kBackup: the database file, and the new file to write (kDoctor: empty for none).

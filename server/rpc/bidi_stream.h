@@ -15,6 +15,7 @@
 #include "server/base/inline_policy.h"
 #include "server/base/read_window.h"
 #include "server/rpc/incoming_call.h"
+#include "server/rpc/read_mark.h"
 #include "server/rpc/service_core.h"
 #include "server/rpc/status_conversion.h"
 #include "server/rpc/stream_registry.h"
@@ -40,9 +41,7 @@ class BidiStream : public grpc::ServerBidiReactor<Request, Response>,
   void Open() {
     self_ = this->shared_from_this();
     absl::Status admitted = call_.EnterStream();
-    if (!core_->streams.Add(self_)) {
-      admitted = DrainingError();
-    }
+    if (!core_->streams.Add(self_)) admitted = DrainingError();
     const MutexLock lock(mutex_);
     if (admitted.ok()) {
       ReadNext();
@@ -52,9 +51,7 @@ class BidiStream : public grpc::ServerBidiReactor<Request, Response>,
     }
   }
 
-  void Drain() override {
-    strand_->Post([self = this->shared_from_this()] { self->HandleDrain(); });
-  }
+  void Drain() override { PostEnd(DrainingError()); }
 
   void Tick() override {
     if (const absl::Status status = call_.CheckIdentity(); !status.ok()) {
@@ -87,6 +84,11 @@ class BidiStream : public grpc::ServerBidiReactor<Request, Response>,
       if (!ok) {
         reading_ = false;
         half_closed_ = true;
+        if (IsUndecodable(*incoming_)) {
+          // Keeps its place behind the requests before, which are answered first.
+          unanswered_.push_back(0);
+          PostEnd(UndecodableError(*incoming_));
+        }
         FinishIfOver();
         return;
       }
@@ -144,18 +146,16 @@ class BidiStream : public grpc::ServerBidiReactor<Request, Response>,
  protected:
   // One at a time, in order. Each request leads to one Answer, one NoAnswer or an End.
   virtual absl::Status Handle(const Request& request) = 0;
-  virtual void HandleDrain() { End(DrainingError()); }
-  // Releases what belongs to the stream.
-  virtual void HandleDone() {}
+  // Ends the stream after the answers to earlier requests.
+  virtual void EndInTurn(const absl::Status& status) { End(status); }
+  virtual void HandleDone() {}  // Releases what belongs to the stream.
 
   // Any thread. `fill` gets an empty answer, whose memory is reused. It is not called once the
   // stream has ended.
   template <typename Fill>
   void Answer(Fill fill) {
     const MutexLock lock(mutex_);
-    if (end_status_ || finished_) {
-      return;
-    }
+    if (end_status_ || finished_) return;
     if (spare_.empty()) spare_.emplace_back();
     writes_.splice(writes_.end(), spare_, spare_.begin());
     fill(&writes_.back());
@@ -186,6 +186,10 @@ class BidiStream : public grpc::ServerBidiReactor<Request, Response>,
   // slows its clients down and refuses nothing.
   static constexpr std::size_t kReadAheadOfAll = 24576;
 
+  void PostEnd(const absl::Status& status) {
+    strand_->Post([self = this->shared_from_this(), status] { self->EndInTurn(status); });
+  }
+
   void HandleGuarded(const Request& request) {
     {
       const MutexLock lock(mutex_);
@@ -210,6 +214,7 @@ class BidiStream : public grpc::ServerBidiReactor<Request, Response>,
     reading_ = true;
     read_begin_ = std::chrono::steady_clock::now();
     incoming_ = std::make_shared<Request>();
+    MarkUnread(incoming_.get());
     this->StartRead(incoming_.get());
   }
 

@@ -1,11 +1,13 @@
 #include "server/rpc/incoming_call.h"
 
+#include <google/protobuf/descriptor.h>
 #include <grpc/grpc_security_constants.h>
 #include <grpcpp/security/auth_context.h>
 
 #include <vector>
 
 #include "absl/strings/str_cat.h"
+#include "absl/strings/str_replace.h"
 #include "homing/base/mutex.h"
 #include "homing/base/status_macros.h"
 #include "server/base/error_reason.h"
@@ -13,6 +15,12 @@
 
 namespace homing::server {
 namespace {
+
+const google::protobuf::Descriptor* RequestOf(Rpc rpc) {
+  const std::string method = absl::StrReplaceAll(std::string(TraitsOf(rpc).method), {{"/", "."}});
+  const auto* found = google::protobuf::DescriptorPool::generated_pool()->FindMethodByName(method);
+  return found == nullptr ? nullptr : found->input_type();
+}
 
 std::string TextOf(const grpc::string_ref& text) { return std::string(text.data(), text.size()); }
 
@@ -124,7 +132,7 @@ grpc::Status IncomingCall::Finish(const absl::Status& status) {
     const MutexLock lock(mutex_);
     place_.Leave();
   }
-  return ToGrpcStatus(status);
+  return ToGrpcStatus(status, absl::IsInvalidArgument(status) ? RequestOf(rpc_) : nullptr);
 }
 
 }  // namespace homing::server

@@ -12,6 +12,7 @@
 #include "google/rpc/error_details.pb.h"
 #include "homing/base/field_error.h"
 #include "server/base/error_reason.h"
+#include "server/rpc/field_path.h"
 
 namespace homing::server {
 namespace {
@@ -59,17 +60,23 @@ void AddRetryInfo(const absl::Status& status, google::rpc::Status* details) {
   details->add_details()->PackFrom(retry);
 }
 
-void AddBadRequest(const absl::Status& status, google::rpc::Status* details) {
+void AddBadRequest(const absl::Status& status, const google::protobuf::Descriptor* request,
+                   google::rpc::Status* details) {
   google::rpc::BadRequest bad;
   auto* violation = bad.add_field_violations();
-  violation->set_field(FieldOf(status).value_or(""));
+  const std::string field = FieldOf(status).value_or("");
+  if (request != nullptr) {
+    violation->set_field(FieldPath(field.empty() ? details->message() : field, *request));
+  } else {
+    violation->set_field(field);
+  }
   violation->set_description(details->message());
   details->add_details()->PackFrom(bad);
 }
 
 }  // namespace
 
-grpc::Status ToGrpcStatus(const absl::Status& status) {
+grpc::Status ToGrpcStatus(const absl::Status& status, const google::protobuf::Descriptor* request) {
   if (status.ok()) {
     return grpc::Status::OK;
   }
@@ -81,7 +88,7 @@ grpc::Status ToGrpcStatus(const absl::Status& status) {
     AddRetryInfo(status, &details);
   }
   if (absl::IsInvalidArgument(status)) {
-    AddBadRequest(status, &details);
+    AddBadRequest(status, request, &details);
   }
   return {static_cast<grpc::StatusCode>(status.code()), details.message(),
           details.SerializeAsString()};

@@ -2,6 +2,7 @@
 #ifndef SERVER_RPC_STATUS_CONVERSION_H_
 #define SERVER_RPC_STATUS_CONVERSION_H_
 
+#include <google/protobuf/descriptor.h>
 #include <grpcpp/support/status.h>
 
 #include <functional>
@@ -11,9 +12,11 @@
 namespace homing::server {
 
 // Adds google.rpc details: ErrorInfo always (domain "homing"), RetryInfo for RESOURCE_EXHAUSTED and
-// UNAVAILABLE, BadRequest for INVALID_ARGUMENT (with the field of homing::FieldError). The messages
-// of INTERNAL and UNKNOWN go to the server's log only. Messages are cut at 1000 bytes.
-grpc::Status ToGrpcStatus(const absl::Status& status);
+// UNAVAILABLE, BadRequest for INVALID_ARGUMENT (with the field of homing::FieldError, completed by
+// FieldPath to a path in `request`). The messages of INTERNAL and UNKNOWN go to the server's log
+// only. Messages are cut at 1000 bytes.
+grpc::Status ToGrpcStatus(const absl::Status& status,
+                          const google::protobuf::Descriptor* request = nullptr);
 
 // The result of `call`; INTERNAL or RESOURCE_EXHAUSTED (memory) if it throws.
 absl::Status Guarded(const std::function<absl::Status()>& call);

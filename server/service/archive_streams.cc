@@ -6,6 +6,7 @@
 #include "homing/base/field_error.h"
 #include "homing/base/status_macros.h"
 #include "server/base/error_reason.h"
+#include "server/rpc/read_mark.h"
 #include "server/rpc/status_conversion.h"
 #include "server/service/journey_archive.h"
 #include "server/service/message_conversion.h"
@@ -37,7 +38,7 @@ void ImportStream::Open() {
     entered = DrainingError();
   }
   if (entered.ok()) {
-    StartRead(&request_);
+    ReadNext();
   } else {
     FinishWith(entered);
   }
@@ -78,6 +79,10 @@ absl::Status ImportStream::TakeChunk(const std::string& chunk) {
 }
 
 void ImportStream::OnReadDone(bool ok) {
+  if (!ok && IsUndecodable(request_)) {
+    FinishWith(UndecodableError(request_));
+    return;
+  }
   if (!ok) {
     if (!core_->pool.TryRun([self = self_] { self->Complete(); })) {
       FinishWith(BusyError());
@@ -88,10 +93,15 @@ void ImportStream::OnReadDone(bool ok) {
   const absl::Status status = Guarded([this] { return Take(request_); });
   if (status.ok()) {
     request_.Clear();
-    StartRead(&request_);
+    ReadNext();
   } else {
     FinishWith(status);
   }
+}
+
+void ImportStream::ReadNext() {
+  MarkUnread(&request_);
+  StartRead(&request_);
 }
 
 absl::Status ImportStream::Store() {

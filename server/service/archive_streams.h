@@ -51,6 +51,7 @@ class ImportStream final : public grpc::ServerReadReactor<v1::ImportJourneyReque
 
  private:
   absl::Status Take(const v1::ImportJourneyRequest& request);
+  void ReadNext();
   absl::Status TakeChunk(const std::string& chunk);
   absl::Status Store();
   void Complete();

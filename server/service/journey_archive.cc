@@ -4,6 +4,7 @@
 #include <google/protobuf/io/zero_copy_stream_impl_lite.h>
 #include <zlib.h>
 
+#include <cmath>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -23,6 +24,9 @@ namespace {
 // The last byte is the version.
 constexpr std::string_view kMagic = "HOMINGJ\x01";
 constexpr std::size_t kChecksumBytes = 4;
+// Twenty hours at thirty frames a second. Steps without fingerprints take no room in the file, but
+// a hundred bytes each while a robot localises on them.
+constexpr std::int64_t kMostImportedSteps = 2'000'000;
 
 absl::Status Damaged(const std::string& what) {
   return FieldError("chunk", absl::StrCat("journey file: ", what));
@@ -119,10 +123,21 @@ absl::Status CheckSize(const char* field, std::int64_t size, std::int64_t expect
   return Damaged(absl::StrCat(field, " has ", size, " entries: must have ", expected));
 }
 
+// The database does not keep the sign of 0, so that the file would not come out as it went in.
+template <typename Column>
+absl::Status CheckZeros(const char* field, const Column& values) {
+  for (const double value : values) {
+    if (value == 0 && std::signbit(value)) {
+      return Damaged(absl::StrCat(field, " has -0: must be 0"));
+    }
+  }
+  return absl::OkStatus();
+}
+
 absl::Status CheckColumns(const v1::JourneyMap& message) {
-  if (message.step_count() < 0 || message.step_count() > kMostSteps) {
-    return Damaged(
-        absl::StrCat("step_count is ", message.step_count(), ": must be 0 to ", kMostSteps));
+  if (message.step_count() < 0 || message.step_count() > kMostImportedSteps) {
+    return Damaged(absl::StrCat("step_count is ", message.step_count(), ": must be 0 to ",
+                                kMostImportedSteps));
   }
   if (message.start_time_ns() < 0 || message.end_time_ns() < 0) {
     return Damaged("start_time_ns or end_time_ns is negative");
@@ -134,6 +149,9 @@ absl::Status CheckColumns(const v1::JourneyMap& message) {
   std::int64_t fingerprints = 0;
   for (std::uint32_t of_step : message.fingerprints_per_step()) fingerprints += of_step;
   HOMING_RETURN_IF_ERROR(CheckSize("landmarks", message.landmarks_size(), fingerprints));
+  HOMING_RETURN_IF_ERROR(CheckZeros("xs", message.xs()));
+  HOMING_RETURN_IF_ERROR(CheckZeros("ys", message.ys()));
+  HOMING_RETURN_IF_ERROR(CheckZeros("landmark_spreads", message.landmark_spreads()));
   HOMING_RETURN_IF_ERROR(CheckSize("xs", message.xs_size(), fingerprints));
   HOMING_RETURN_IF_ERROR(CheckSize("ys", message.ys_size(), fingerprints));
   return CheckSize("counts", message.counts_size(), fingerprints);

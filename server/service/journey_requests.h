@@ -13,6 +13,10 @@
 
 namespace homing::server {
 
+// Robots' names and "*". INVALID_ARGUMENT naming `field`.
+absl::StatusOr<std::vector<std::string>> DecodeReaders(
+    const google::protobuf::RepeatedPtrField<std::string>& readers, const std::string& field);
+
 // `now_ns` is the server's clock. INVALID_ARGUMENT; NOT_FOUND (deviation model).
 absl::StatusOr<storage::JourneyRecord> DecodeCreateJourney(const v1::CreateJourneyRequest& request,
                                                            ModelCatalog* models,

@@ -78,11 +78,11 @@ absl::Status RecordStream::CheckLimits() {
                                             : absl::OkStatus();
 }
 
-void RecordStream::HandleDrain() {
+void RecordStream::EndInTurn(const absl::Status& status) {
   if (session_) {
-    session_->Reject(DrainingError());
+    session_->Reject(status);
   } else {
-    End(DrainingError());
+    End(status);
   }
 }
 

@@ -48,6 +48,10 @@ absl::StatusOr<std::shared_ptr<RecordingSession>> RecordingSession::Open(
   return session;
 }
 
+RecordingSession::~RecordingSession() {
+  if (claim_.journey) claim_.journey->EndStream(claim_.claim);
+}
+
 absl::Status RecordingSession::Start(WriterClaim claim) {
   claim_ = std::move(claim);
   HOMING_ASSIGN_OR_RETURN(const JourneyTail tail, claim_.journey->LoadTail());

@@ -57,6 +57,10 @@ class RecordingSession : public std::enable_shared_from_this<RecordingSession> {
                                                                 TimePoint now,
                                                                 RecordingListener listener);
 
+  ~RecordingSession();
+  RecordingSession(const RecordingSession&) = delete;
+  RecordingSession& operator=(const RecordingSession&) = delete;
+
   // Leads to one answer or the end, after the answers to earlier observations.
   void Record(const Observation& observation, TimePoint now);
   // Ends the session with `status` after the answers to the observations before.

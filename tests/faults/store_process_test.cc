@@ -112,7 +112,7 @@ TEST_F(StoreProcessTest, ReadOnlyLocalisesAndLeavesEveryByte) {
               StatusIs(absl::StatusCode::kFailedPrecondition, HasSubstr("read-only")));
   EXPECT_THAT(DeleteOne(robot_, kJourney),
               StatusIs(absl::StatusCode::kFailedPrecondition, HasSubstr("read-only")));
-  EXPECT_THAT(server::CheckHealth(server_.address(), ""), IsOk());
+  EXPECT_THAT(server::CheckHealth(server_.address()), IsOk());
   EXPECT_EQ(server_.Stop(), 0);
   EXPECT_TRUE(ReadFiles(server_.folder()) == before);
   EXPECT_EQ(fs::last_write_time(database_), changed);

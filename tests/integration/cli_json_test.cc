@@ -39,7 +39,7 @@ TEST_F(CliJsonTest, RecordPrintsOneLineAnObservation) {
   ASSERT_GT(lines.size(), 20U);
   for (std::size_t i = 0; i < lines.size(); ++i) {
     EXPECT_THAT(Keys(ran.lines[i]),
-                ElementsAre("sequence", "next_sequence", "step", "motion", "landmarks"));
+                ElementsAre("sequence", "next_sequence", "step", "motion", "landmarks", "frame"));
     EXPECT_EQ(lines[i]["sequence"], i);
     EXPECT_GE(lines[i]["next_sequence"], i + 1);
     if (i == 0) {
@@ -60,9 +60,10 @@ TEST_F(CliJsonTest, LocalizePrintsOneLineAnObservation) {
   const auto lines = ran.Json();
   ASSERT_GT(lines.size(), 15U);
   for (std::size_t i = 0; i < lines.size(); ++i) {
-    EXPECT_THAT(Keys(ran.lines[i]), ElementsAre("sequence", "outcome", "motion", "journey", "step",
-                                                "probability", "interval", "progress_home",
-                                                "direction", "landmark", "similarity", "matches"));
+    EXPECT_THAT(
+        Keys(ran.lines[i]),
+        ElementsAre("sequence", "outcome", "motion", "journey", "step", "probability", "interval",
+                    "progress_home", "direction", "landmark", "similarity", "matches", "frame"));
     EXPECT_EQ(lines[i]["sequence"], i);
   }
   EXPECT_TRUE(lines[0]["step"].is_null());

@@ -2,6 +2,7 @@
 #include <google/protobuf/descriptor.h>
 
 #include <chrono>
+#include <filesystem>
 #include <fstream>
 #include <thread>
 
@@ -208,7 +209,7 @@ TEST_P(AccessTableTest, ACallerWithoutCredentialsGetsNothing) {
 }
 
 TEST_P(AccessTableTest, HealthIsForEveryone) {
-  EXPECT_THAT(CheckHealth(server_->address(), ""), IsOk());
+  EXPECT_THAT(CheckHealth(server_->address()), IsOk());
 }
 
 TEST_P(AccessTableTest, EveryMethodOfTheApiHasARow) {
@@ -243,6 +244,14 @@ TEST_P(AccessTableTest, ATokenTakenAwayEndsTheStreamThatUsesIt) {
   EXPECT_FALSE(stream->Read(&response));
   EXPECT_THAT(stream->Finish(),
               GrpcStatusIs(grpc::StatusCode::UNAUTHENTICATED, HasSubstr("token")));
+}
+
+TEST_P(AccessTableTest, ATokenFileOfNoBytesTakesNoTokenAway) {
+  std::ofstream(options_.tokens, std::ios::trunc).flush();
+  std::filesystem::last_write_time(
+      options_.tokens, std::filesystem::file_time_type::clock::now() - std::chrono::hours(1));
+  server_->Reload();
+  EXPECT_THAT(As("robots/owner").Call(Rpc::kGetJourney, kPrivate), IsGrpcOk());
 }
 
 TEST_P(AccessTableTest, SecretsAreNotInTheMetrics) {

@@ -142,7 +142,7 @@ TEST_F(LifecycleTest, AfterARestartTheRecordingContinuesToTheSameFile) {
 
 TEST_F(LifecycleTest, ADrainingServerEndsStreamsAsUnavailableAndKeepsAcknowledgedSteps) {
   const std::string address = server_->address();
-  ASSERT_THAT(CheckHealth(address, ""), IsOk());
+  ASSERT_THAT(CheckHealth(address), IsOk());
   Recording recording(journeys_.get(), kJourney);
   recording.Record(test::FlowAt(0));
   Localizing localizing(homing_.get(), LocalizeOn(kJourney));
@@ -158,7 +158,7 @@ TEST_F(LifecycleTest, ADrainingServerEndsStreamsAsUnavailableAndKeepsAcknowledge
   EXPECT_THAT(localizing.AwaitEnd(),
               GrpcStatusIs(grpc::StatusCode::UNAVAILABLE, HasSubstr("shutting down")));
   drain.join();
-  EXPECT_THAT(CheckHealth(address, ""), StatusIs(absl::StatusCode::kUnavailable, HasSubstr("")));
+  EXPECT_THAT(CheckHealth(address), StatusIs(absl::StatusCode::kUnavailable, HasSubstr("")));
   StartServer();
   EXPECT_GE(Get().next_sequence(), recording.answers().back().next_sequence());
 }

@@ -95,10 +95,17 @@ TEST_F(TlsTest, PlainTextIsRefused) {
 TEST_F(TlsTest, WithoutACertificateNoClientConnects) {
   const std::string ca = Read(pki("ca.pem"));
   EXPECT_EQ(Get(Dial({}, ca)).error_code(), grpc::StatusCode::UNAVAILABLE);
-  EXPECT_FALSE(CheckHealth(server_->address(), pki("ca.pem")).ok());
-  EXPECT_THAT(CheckHealth(server_->address(), pki("ca.pem"), pki("operators/anna.pem"),
-                          pki("operators/anna.key")),
+  EXPECT_FALSE(CheckHealth(server_->address(), {pki("ca.pem"), "", "", ""}).ok());
+  EXPECT_THAT(CheckHealth(server_->address(), {pki("ca.pem"), "", pki("operators/anna.pem"),
+                                               pki("operators/anna.key")}),
               IsOk());
+}
+
+TEST_F(TlsTest, HealthCheckMayTrustTheServersCertificateItself) {
+  const std::string cert = pki("operators/anna.pem");
+  const std::string key = pki("operators/anna.key");
+  EXPECT_THAT(CheckHealth(server_->address(), {"", pki("server.pem"), cert, key}), IsOk());
+  EXPECT_FALSE(CheckHealth(server_->address(), {"", cert, cert, key}).ok());
 }
 
 TEST_F(TlsTest, ExpiredForeignAndRevokedCertificatesAreRefused) {

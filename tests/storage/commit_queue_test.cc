@@ -37,6 +37,9 @@ class HeldStore : public JourneyStore {
   absl::Status DeleteJourney(const std::string&) override { return result; }
   absl::Status FinishJourney(const std::string&) override { return result; }
   absl::Status SetWriter(const std::string&, const std::string&) override { return result; }
+  absl::Status SetReaders(const std::string&, const std::vector<std::string>&) override {
+    return result;
+  }
   absl::StatusOr<JourneyMap> LoadMap(const std::string&) override { return result; }
   absl::StatusOr<JourneyTail> LoadTail(const std::string&) override { return result; }
   absl::Status ImportJourney(const JourneyRecord&, const JourneyMap&) override { return result; }

@@ -37,6 +37,10 @@ class ForwardingStore : public JourneyStore {
   absl::Status SetWriter(const std::string& name, const std::string& writer_id) override {
     return store_->SetWriter(name, writer_id);
   }
+  absl::Status SetReaders(const std::string& name,
+                          const std::vector<std::string>& readers) override {
+    return store_->SetReaders(name, readers);
+  }
   std::vector<absl::Status> AppendSteps(const std::vector<JourneyAppend>& appends) override {
     return store_->AppendSteps(appends);
   }

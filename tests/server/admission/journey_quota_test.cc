@@ -19,7 +19,7 @@ class JourneyQuotaTest : public SessionTest {
     record.create_time_ns = create_time_ns;
     ASSERT_THAT(catalog_->Create(record), IsOk());
     if (finished) {
-      ASSERT_THAT(catalog_->Finish(record.name, "writer", {}), IsOk());
+      ASSERT_THAT(catalog_->Finish(record.name, "writer", false, {}), IsOk());
     }
   }
   void ReopenReadOnly() {
@@ -73,7 +73,7 @@ TEST_F(JourneyQuotaTest, JourneysBeingRecordedAreNeverDeleted) {
   Make("a", 1, false);
   EXPECT_THAT(quota.CheckNew(Name("b")),
               StatusIs(absl::StatusCode::kResourceExhausted, HasSubstr("1 journeys")));
-  EXPECT_EQ(quota.DeleteExpired(1'000'000'000'000).value(), 0);
+  EXPECT_EQ(quota.DeleteExpired(1'000'000'000'000, 0).value(), 0);
   EXPECT_TRUE(IsThere("a"));
 }
 
@@ -94,11 +94,12 @@ TEST_F(JourneyQuotaTest, WithDeleteAfterOldFinishedJourneysAreDeleted) {
   constexpr std::int64_t kSecond = 1'000'000'000;
   Make("old", 10 * kSecond, true);
   Make("new", 20 * kSecond, true);
-  EXPECT_EQ(JourneyQuota(catalog_.get(), limits_).DeleteExpired(100 * kSecond).value(), 0);
+  EXPECT_EQ(JourneyQuota(catalog_.get(), limits_).DeleteExpired(100 * kSecond, 0).value(), 0);
   limits_.delete_after_s = 5;
   JourneyQuota quota(catalog_.get(), limits_);
-  EXPECT_EQ(quota.DeleteExpired(15 * kSecond).value(), 0);
-  EXPECT_EQ(quota.DeleteExpired(16 * kSecond).value(), 1);
+  EXPECT_EQ(quota.DeleteExpired(15 * kSecond, 0).value(), 0);
+  EXPECT_EQ(quota.DeleteExpired(16 * kSecond, 11 * kSecond).value(), 0);
+  EXPECT_EQ(quota.DeleteExpired(16 * kSecond, 0).value(), 1);
   EXPECT_FALSE(IsThere("old"));
   EXPECT_TRUE(IsThere("new"));
 }

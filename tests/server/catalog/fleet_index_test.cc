@@ -193,7 +193,7 @@ TEST_F(SessionTest, UnusedMapsAreEvicted) {
     const std::string name = absl::StrCat("robots/r", i, "/journeys/j");
     Create(name);
     RecordFlow(0, 5, name);
-    ASSERT_THAT(catalog_->Finish(name, "writer", {}), IsOk());
+    ASSERT_THAT(catalog_->Finish(name, "writer", false, {}), IsOk());
   }
   JourneyCatalog small(store_.get(), CatalogOptions{.cache_bytes = 1});
   const auto used = *small.Open("robots/r0/journeys/j");

@@ -67,6 +67,8 @@ TEST_F(ServerOptionsTest, WrongUsageExitsWithTwo) {
   EXPECT_EQ(Parse({"--nonsense"}).exit_code, 2);
   EXPECT_EQ(Parse({"--workers", "many"}).exit_code, 2);
   EXPECT_EQ(Parse({"--config", "/nowhere.toml"}).exit_code, 2);
+  // A folder would be read as an empty file: no TLS, no tokens.
+  EXPECT_EQ(Parse({"--config", "/tmp"}).exit_code, 2);
   EXPECT_EQ(Parse({"--config", WriteFile("colour = 1\n").c_str()}).exit_code, 2);
   EXPECT_EQ(Parse({"--config", WriteFile("listen = [1]\n").c_str()}).exit_code, 2);
   EXPECT_EQ(Parse({"--config", WriteFile("listen = \n").c_str()}).exit_code, 2);
@@ -102,6 +104,32 @@ TEST_F(ServerOptionsTest, OffLoopbackNeedsTlsOrTheFlagThatSaysSo) {
   }
   options.insecure = true;
   EXPECT_THAT(Validate(options), IsOk());
+}
+
+TEST_F(ServerOptionsTest, HealthOfTheSameEnvironmentTrustsTheServersCertificate) {
+  ServerCommand command = Parse({"healthcheck", "--tls-cert", "server.pem", "--tls-key", "k"});
+  EXPECT_EQ(command.health_trusted, "server.pem");
+  EXPECT_EQ(command.health_cert, "");
+  command = Parse({"healthcheck", "--tls-cert", "server.pem", "--tls-key", "k", "--ca", "ca.pem"});
+  EXPECT_EQ(command.health_trusted, "");
+  command = Parse({"healthcheck", "--tls-cert", "server.pem", "--server", "127.0.0.1:8"});
+  EXPECT_EQ(command.health_trusted, "");
+}
+
+TEST_F(ServerOptionsTest, AddressesHaveAValidPort) {
+  for (const char* address : {"127.0.0.1", "127.0.0.1:", "127.0.0.1:99999", "127.0.0.1:-1", ":1",
+                              "localhost:http", "http://127.0.0.1:1", "::1:1"}) {
+    ServerOptions options;
+    options.listen = address;
+    EXPECT_THAT(Validate(options),
+                StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("listen: ")))
+        << address;
+    options = ServerOptions();
+    options.http = address;
+    EXPECT_THAT(Validate(options),
+                StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("http: ")))
+        << address;
+  }
 }
 
 TEST_F(ServerOptionsTest, ItsOutputIsAFileWithTheSameOptions) {

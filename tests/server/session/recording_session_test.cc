@@ -211,7 +211,7 @@ TEST_F(RecordingSessionTest, AnotherWriterIsRefusedWhileTheLeaseLives) {
 
 TEST_F(RecordingSessionTest, AFinishedJourneyTakesNoWriter) {
   RecordFlow(0, 3);
-  ASSERT_THAT(catalog_->Finish(kJourney, "writer", {}), IsOk());
+  ASSERT_THAT(catalog_->Finish(kJourney, "writer", false, {}), IsOk());
   Ear ear;
   EXPECT_THAT(Open(&ear), StatusIs(absl::StatusCode::kFailedPrecondition, HasSubstr("finished")));
   OpenStore(0);
@@ -224,9 +224,9 @@ TEST_F(RecordingSessionTest, FinishingEndsTheStreamAfterPendingAnswers) {
   for (int i = 0; i < 20; ++i) {
     session->Record(test::FlowAt(i), {});
   }
-  EXPECT_THAT(catalog_->Finish(kJourney, "other", {}),
+  EXPECT_THAT(catalog_->Finish(kJourney, "other", false, {}),
               StatusIs(absl::StatusCode::kAborted, HasSubstr("another writer")));
-  const auto finished = catalog_->Finish(kJourney, "writer", {});
+  const auto finished = catalog_->Finish(kJourney, "writer", false, {});
   ASSERT_THAT(finished, IsOk());
   EXPECT_EQ(finished->next_sequence, 20);
   EXPECT_EQ(finished->state, storage::JourneyState::kFinished);
