@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "absl/strings/str_cat.h"
-#include "homing/base/range_check.h"
+#include "homing/base/field_error.h"
 #include "homing/base/status_macros.h"
 #include "proto/wire/observation_conversion.h"
 
@@ -54,17 +54,17 @@ void CameraObservations::Forget() {
 }
 
 std::int64_t CameraObservations::read_count() const {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   return static_cast<std::int64_t>(marks_.size());
 }
 
 void CameraObservations::AddMark(const Mark& mark) {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   marks_.push_back(mark);
 }
 
 std::int64_t CameraObservations::FrameOf(std::int64_t sequence) const {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   const std::int64_t own = sequence - base_;
   if (own < 0 || own >= static_cast<std::int64_t>(marks_.size())) return -1;
   return marks_[static_cast<std::size_t>(own)].frame;
@@ -134,7 +134,7 @@ bool CameraObservations::Seek(std::int64_t sequence) {
   if (own < 0 || instants_->live()) return false;
   std::optional<CameraInstants::Place> from;
   {
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     if (own < static_cast<std::int64_t>(marks_.size())) {
       from = marks_[static_cast<std::size_t>(own)].from;
       marks_.resize(static_cast<std::size_t>(own));

@@ -5,7 +5,6 @@
 
 #include <array>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,6 +12,7 @@
 #include "client/camera_instants.h"
 #include "client/frame_source.h"
 #include "client/observation_stream.h"
+#include "homing/base/mutex.h"
 #include "homing/flow/observation.h"
 
 namespace homing::client {
@@ -66,9 +66,9 @@ class CameraObservations : public ObservationStream {
   std::int64_t base_ = 0;
   std::int64_t next_ = 0;
   bool break_ = false;
-  mutable std::mutex mutex_;
+  mutable Mutex mutex_;
   // One an observation read, from base_ on.
-  std::vector<Mark> marks_;
+  std::vector<Mark> marks_ HOMING_GUARDED_BY(mutex_);
 };
 
 }  // namespace homing::client

@@ -87,7 +87,7 @@ class Exchange {
   }
 
   void SetError(const absl::Status& status) {
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     if (error_.ok()) error_ = status;
   }
 

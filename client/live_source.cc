@@ -1,8 +1,8 @@
 #include "client/live_source.h"
 
-#include <condition_variable>
-#include <mutex>
 #include <thread>
+
+#include "homing/base/mutex.h"
 
 namespace homing::client {
 namespace {
@@ -11,22 +11,22 @@ using Frame = absl::StatusOr<std::optional<SourceFrame>>;
 
 // Shared with the thread that reads, which may hang in the camera's driver and outlive the source.
 struct Mailbox {
-  std::mutex mutex;
-  std::condition_variable_any changed;
+  Mutex mutex;
+  ConditionVariable changed;
   // The frame read and not yet taken: the reader waits, so that a pipe loses nothing.
-  std::optional<Frame> frame;
-  bool closed = false;
+  std::optional<Frame> frame HOMING_GUARDED_BY(mutex);
+  bool closed HOMING_GUARDED_BY(mutex) = false;
 };
 
 void ReadAll(const std::shared_ptr<Mailbox>& mailbox, const std::shared_ptr<FrameSource>& camera) {
   while (true) {
     Frame frame = camera->Next();
     const bool last = !frame.ok() || !frame->has_value();
-    std::unique_lock lock(mailbox->mutex);
-    mailbox->changed.wait(lock, [&] { return mailbox->closed || !mailbox->frame; });
+    const MutexLock lock(mailbox->mutex);
+    while (!mailbox->closed && mailbox->frame) mailbox->changed.Wait(mailbox->mutex);
     if (mailbox->closed) return;
     mailbox->frame = std::move(frame);
-    mailbox->changed.notify_all();
+    mailbox->changed.NotifyAll();
     if (last) return;
   }
 }
@@ -36,9 +36,9 @@ class StoppableSource : public FrameSource {
   StoppableSource(std::shared_ptr<FrameSource> camera, std::stop_token stop)
       : stop_(std::move(stop)), camera_(std::move(camera)) {}
   ~StoppableSource() override {
-    const std::lock_guard lock(mailbox_->mutex);
+    const MutexLock lock(mailbox_->mutex);
     mailbox_->closed = true;
-    mailbox_->changed.notify_all();
+    mailbox_->changed.NotifyAll();
   }
 
   Frame Next() override {
@@ -47,17 +47,21 @@ class StoppableSource : public FrameSource {
       std::thread(ReadAll, mailbox_, camera_).detach();
     }
     if (!error_.ok()) return error_;
-    std::unique_lock lock(mailbox_->mutex);
-    const auto has_frame = [&] { return mailbox_->frame.has_value(); };
-    if (ended_ || !mailbox_->changed.wait(lock, stop_, has_frame)) {
-      return std::optional<SourceFrame>();
+    const std::stop_callback wake_up(stop_, [this] {
+      const MutexLock lock(mailbox_->mutex);
+      mailbox_->changed.NotifyAll();
+    });
+    const MutexLock lock(mailbox_->mutex);
+    while (!ended_ && !mailbox_->frame && !stop_.stop_requested()) {
+      mailbox_->changed.Wait(mailbox_->mutex);
     }
+    if (ended_ || !mailbox_->frame) return std::optional<SourceFrame>();
     Frame frame = *std::move(mailbox_->frame);
     mailbox_->frame.reset();
     ended_ = !frame.ok() || !frame->has_value();
     // Given again, as by every source.
     error_ = frame.status();
-    mailbox_->changed.notify_all();
+    mailbox_->changed.NotifyAll();
     return frame;
   }
   bool Seek(std::int64_t) override { return false; }

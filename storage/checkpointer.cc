@@ -95,7 +95,7 @@ void Checkpointer::MoveAll() {
 }
 
 int Checkpointer::CountPagesInLog() {
-  const std::lock_guard lock(connection_mutex_);
+  const MutexLock lock(connection_mutex_);
   int in_log = 0;
   const int code = sqlite3_wal_checkpoint_v2(connection_->database().getHandle(), nullptr,
                                              SQLITE_CHECKPOINT_PASSIVE, &in_log, nullptr);
@@ -103,7 +103,7 @@ int Checkpointer::CountPagesInLog() {
 }
 
 int Checkpointer::Move() {
-  const std::lock_guard lock(connection_mutex_);
+  const MutexLock lock(connection_mutex_);
   int in_log = 0;
   int moved = 0;
   const int code = sqlite3_wal_checkpoint_v2(connection_->database().getHandle(), nullptr,

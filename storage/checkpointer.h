@@ -46,7 +46,7 @@ class Checkpointer {
 
   std::atomic<int> pages_in_log_ = 0;
   // While connection_ is used.
-  std::mutex connection_mutex_;
+  Mutex connection_mutex_;
   const std::unique_ptr<Connection> connection_;
   Connection* const writer_;
   Mutex* const write_mutex_;

@@ -35,7 +35,7 @@ bool FileIdentity::IsLogCut() {
 
 absl::Status FileIdentity::Check() {
   const std::string log_path = path_ + "-wal";
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   const auto check = [](const std::string& path, const std::optional<File>& known,
                         std::int64_t least) {
     const auto now = Look(path);

@@ -6,11 +6,11 @@
 
 #include <atomic>
 #include <cstdint>
-#include <mutex>
 #include <optional>
 #include <string>
 
 #include "absl/status/status.h"
+#include "homing/base/mutex.h"
 
 namespace homing::storage {
 
@@ -37,9 +37,9 @@ class FileIdentity {
   static std::optional<File> Look(const std::string& path);
 
   const std::string path_;
-  std::mutex mutex_;
-  std::optional<File> database_;
-  std::optional<File> log_;
+  Mutex mutex_;
+  std::optional<File> database_ HOMING_GUARDED_BY(mutex_);
+  std::optional<File> log_ HOMING_GUARDED_BY(mutex_);
   std::atomic<std::int64_t> log_bytes_ = 0;
 };
 

@@ -111,7 +111,7 @@ absl::Status SqliteJourneyStore::ProbeWrite() {
   HOMING_RETURN_IF_ERROR(CheckFiles());
   if (const absl::Status health = WriteHealth(); absl::IsDataLoss(health)) {
     if (!IsHealed()) return health;
-    const std::lock_guard lock(health_mutex_);
+    const MutexLock lock(health_mutex_);
     write_health_ = absl::OkStatus();
   }
   if (!read_only()) {

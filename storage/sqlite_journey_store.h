@@ -84,7 +84,7 @@ class SqliteJourneyStore final : public JourneyStore {
   Mutex health_mutex_;
   // Has its own mutex, so that reading it never waits for a write.
   absl::Status write_health_ HOMING_GUARDED_BY(health_mutex_);
-  std::chrono::steady_clock::time_point next_check_ HOMING_GUARDED_BY(health_mutex_);
+  std::chrono::steady_clock::time_point next_check_;
   std::unique_ptr<FileIdentity> files_;
   std::int64_t page_bytes_ = 0;
   std::unique_ptr<QueryConnections> queries_;

@@ -3,7 +3,6 @@
 #define HOMING_BASE_FILE_TEXT_H_
 
 #include <cerrno>
-#include <cstring>
 #include <fstream>
 #include <sstream>
 #include <string>
@@ -14,7 +13,8 @@
 
 namespace homing {
 
-// All bytes of the file. NOT_FOUND: it cannot be read; the message names the path and the reason.
+// All bytes of the file. The code is that of the system's error; the message names the path and the
+// reason.
 inline absl::StatusOr<std::string> ReadFile(const std::string& path) {
   errno = 0;
   const std::ifstream file(path, std::ios::binary);
@@ -24,8 +24,7 @@ inline absl::StatusOr<std::string> ReadFile(const std::string& path) {
   }
   // An empty file sets the fail bit only.
   if (!file || text.bad()) {
-    return absl::NotFoundError(absl::StrCat(
-        "cannot read ", path, errno != 0 ? absl::StrCat(": ", std::strerror(errno)) : ""));
+    return absl::ErrnoToStatus(errno != 0 ? errno : EIO, absl::StrCat("cannot read ", path));
   }
   return text.str();
 }

@@ -11,6 +11,7 @@
 #include "absl/strings/match.h"
 #include "absl/strings/numbers.h"
 #include "absl/strings/str_cat.h"
+#include "homing/base/field_error.h"
 
 namespace homing {
 
@@ -25,7 +26,7 @@ struct HostPort {
 inline absl::StatusOr<HostPort> ParseHostPort(const std::string& field, const std::string& text,
                                               int lowest_port) {
   const auto error = [&](const std::string& what) {
-    return absl::InvalidArgumentError(absl::StrCat(field, ": \"", text, "\" must be ", what));
+    return TextMustBe(field, text, what);
   };
   if (absl::StrContains(text, "://")) {
     return error(absl::StrCat("HOST:PORT, without ", text.substr(0, text.find("://") + 3)));

@@ -176,9 +176,9 @@ absl::StatusOr<JourneyRecord> JourneyCatalog::Finish(const std::string& name,
 
 absl::StatusOr<JourneyRecord> JourneyCatalog::SetReaders(const std::string& name,
                                                          const std::vector<std::string>& readers) {
-  const std::lock_guard lock(StripeOf(name));
+  const MutexLock lock(StripeOf(name));
   HOMING_RETURN_IF_ERROR(store_->SetReaders(name, readers));
-  if (const auto journey = Find(name)) {
+  if (const auto journey = cache_.Find(name)) {
     journey->SetReaders(readers);
   }
   return Get(name);

@@ -176,17 +176,17 @@ absl::Status LiveJourney::CheckWriter(const std::string& writer_id, TimePoint no
 }
 
 absl::Status LiveJourney::CheckNoStream(TimePoint now) const {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   return lease_.CheckNoStream(now);
 }
 
 void LiveJourney::EndStream(std::uint64_t claim) {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   lease_.EndStream(claim);
 }
 
 void LiveJourney::SetReaders(const std::vector<std::string>& readers) {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   record_.readers = readers;
 }
 

@@ -11,11 +11,12 @@
 
 #include <atomic>
 #include <cerrno>
-#include <mutex>
+
+#include "homing/base/mutex.h"
 
 namespace {
 
-std::mutex mutex;
+homing::Mutex mutex;
 std::atomic<int> reserve = -1;
 
 int Accept(int listener, sockaddr* address, socklen_t* length, int flags) {
@@ -33,13 +34,13 @@ extern "C" int accept4(int listener, sockaddr* address, socklen_t* length, int f
   if (accepted >= 0 || (errno != EMFILE && errno != ENFILE)) {
     const int error = errno;
     if (reserve < 0) {
-      const std::lock_guard lock(mutex);
+      const homing::MutexLock lock(mutex);
       Refill();
     }
     errno = error;
     return accepted;
   }
-  const std::lock_guard lock(mutex);
+  const homing::MutexLock lock(mutex);
   if (reserve >= 0) ::close(reserve);
   reserve = -1;
   const int refused = Accept(listener, nullptr, nullptr, SOCK_CLOEXEC);

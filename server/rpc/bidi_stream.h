@@ -86,7 +86,7 @@ class BidiStream : public grpc::ServerBidiReactor<Request, Response>,
         half_closed_ = true;
         if (IsUndecodable(*incoming_)) {
           // Keeps its place behind the requests before, which are answered first.
-          unanswered_.push_back(0);
+          window_.Add(0);
           PostEnd(UndecodableError(*incoming_));
         }
         FinishIfOver();

@@ -6,9 +6,10 @@
 
 #include <chrono>
 #include <cstdint>
-#include <mutex>
 #include <string>
 #include <utility>
+
+#include "homing/base/mutex.h"
 
 namespace homing::server {
 namespace {
@@ -16,7 +17,7 @@ namespace {
 constexpr int kLinesAMinute = 10;
 
 struct Budget {
-  std::mutex mutex;
+  Mutex mutex;
   std::chrono::steady_clock::time_point begin;
   int lines = 0;
   std::int64_t left_out = 0;
@@ -31,7 +32,7 @@ void Log(spdlog::level::level_enum level, const char* library, const char* text)
   std::int64_t left_out = 0;
   {
     Budget& budget = TheBudget();
-    const std::lock_guard lock(budget.mutex);
+    const MutexLock lock(budget.mutex);
     const auto now = std::chrono::steady_clock::now();
     if (now - budget.begin >= std::chrono::minutes(1)) {
       budget.begin = now;

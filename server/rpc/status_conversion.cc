@@ -64,12 +64,9 @@ void AddBadRequest(const absl::Status& status, const google::protobuf::Descripto
                    google::rpc::Status* details) {
   google::rpc::BadRequest bad;
   auto* violation = bad.add_field_violations();
-  const std::string field = FieldOf(status).value_or("");
-  if (request != nullptr) {
-    violation->set_field(FieldPath(field.empty() ? details->message() : field, *request));
-  } else {
-    violation->set_field(field);
-  }
+  std::string field = request == nullptr ? "" : FieldPath(details->message(), *request);
+  if (field.empty()) field = FieldOf(status).value_or("");
+  violation->set_field(field);
   violation->set_description(details->message());
   details->add_details()->PackFrom(bad);
 }

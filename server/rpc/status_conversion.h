@@ -12,9 +12,9 @@
 namespace homing::server {
 
 // Adds google.rpc details: ErrorInfo always (domain "homing"), RetryInfo for RESOURCE_EXHAUSTED and
-// UNAVAILABLE, BadRequest for INVALID_ARGUMENT (with the field of homing::FieldError, completed by
-// FieldPath to a path in `request`). The messages of INTERNAL and UNKNOWN go to the server's log
-// only. Messages are cut at 1000 bytes.
+// UNAVAILABLE, BadRequest for INVALID_ARGUMENT (with the path in `request` of the field that the
+// message names, or the field of homing::FieldError). The messages of INTERNAL and UNKNOWN go to
+// the server's log only. Messages are cut at 1000 bytes.
 grpc::Status ToGrpcStatus(const absl::Status& status,
                           const google::protobuf::Descriptor* request = nullptr);
 

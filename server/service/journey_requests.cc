@@ -75,8 +75,7 @@ void AddFingerprints(const JourneyMap& map, const Landmark& landmark, v1::Landma
 absl::StatusOr<std::vector<std::string>> DecodeReaders(
     const google::protobuf::RepeatedPtrField<std::string>& readers, const std::string& field) {
   if (readers.size() > kMaxReaders) {
-    return absl::InvalidArgumentError(
-        absl::StrCat(field, " has ", readers.size(), " entries; at most ", kMaxReaders));
+    return MustBe(field, readers.size(), absl::StrCat("at most ", kMaxReaders, " entries"));
   }
   for (int i = 0; i < readers.size(); ++i) {
     if (readers[i] == "*") continue;
