@@ -1,4 +1,4 @@
-// A file that a command writes: whole, or not there. Source: own design.
+// A file that a command writes: complete, or not at all.
 #ifndef CLIENT_FILE_OUTPUT_FILE_H_
 #define CLIENT_FILE_OUTPUT_FILE_H_
 
@@ -15,13 +15,13 @@ namespace homing::client {
 // "cannot write PATH: REASON", with the code of the system's error.
 absl::Status CannotWrite(const std::string& path, int error);
 
-// Whether a file can be written there, before the work begins; makes it if it is not there.
+// OK: the file can be written. For a check before the work begins; creates a missing file.
 absl::Status CheckWritable(const std::string& path);
 
-// Makes `path` of what `write` writes and returns its size in bytes. A plain file is replaced when
-// all is written; a link stays one; devices and pipes are written into (size 0), a pipe
-// once someone reads it. Errors: those of `write`, and the system's, for a file without write
-// permission too; CANCELLED: stopped while nobody read the pipe.
+// Creates or replaces `path` with the output of `write`; returns its size in bytes. A plain file is
+// replaced when all is written; a link stays a link; devices and pipes are written into (size 0), a
+// pipe once a program reads it. Errors of `write`, and the system's, for a file without write
+// permission too; CANCELLED: stopped while no program read the pipe.
 absl::StatusOr<std::uintmax_t> WriteOutputFile(
     const std::string& path, const std::function<absl::Status(std::ostream&)>& write,
     const std::stop_token& stop = {});

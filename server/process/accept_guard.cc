@@ -11,12 +11,11 @@
 
 #include <atomic>
 #include <cerrno>
-
-#include "homing/base/mutex.h"
+#include <mutex>
 
 namespace {
 
-homing::Mutex mutex;
+std::mutex mutex;
 std::atomic<int> reserve = -1;
 
 int Accept(int listener, sockaddr* address, socklen_t* length, int flags) {
@@ -34,13 +33,13 @@ extern "C" int accept4(int listener, sockaddr* address, socklen_t* length, int f
   if (accepted >= 0 || (errno != EMFILE && errno != ENFILE)) {
     const int error = errno;
     if (reserve < 0) {
-      const homing::MutexLock lock(mutex);
+      const std::lock_guard lock(mutex);
       Refill();
     }
     errno = error;
     return accepted;
   }
-  const homing::MutexLock lock(mutex);
+  const std::lock_guard lock(mutex);
   if (reserve >= 0) ::close(reserve);
   reserve = -1;
   const int refused = Accept(listener, nullptr, nullptr, SOCK_CLOEXEC);
