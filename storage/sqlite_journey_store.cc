@@ -28,10 +28,14 @@ constexpr std::chrono::seconds kCheckEvery{10};
 absl::Status SqliteJourneyStore::StartCheckpoints(int busy_timeout_ms) {
   HOMING_ASSIGN_OR_RETURN(
       checkpointer_, Checkpointer::Start(path_, writer_.get(), &write_mutex_, busy_timeout_ms));
-  HOMING_RETURN_IF_ERROR(writer_->Run([&] {
-    page_bytes_ = writer_->Integer("PRAGMA page_size");
-    return absl::OkStatus();
-  }));
+  {
+    const MutexLock lock(write_mutex_);
+    Connection& writer = *writer_;
+    HOMING_RETURN_IF_ERROR(writer.Run([&] {
+      page_bytes_ = writer.Integer("PRAGMA page_size");
+      return absl::OkStatus();
+    }));
+  }
   files_ = std::make_unique<FileIdentity>(path_);
   return absl::OkStatus();
 }

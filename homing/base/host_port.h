@@ -25,9 +25,7 @@ struct HostPort {
 // outside [`lowest_port`, 65535].
 inline absl::StatusOr<HostPort> ParseHostPort(const std::string& field, const std::string& text,
                                               int lowest_port) {
-  const auto error = [&](const std::string& what) {
-    return TextMustBe(field, text, what);
-  };
+  const auto error = [&](const std::string& what) { return TextMustBe(field, text, what); };
   if (absl::StrContains(text, "://")) {
     return error(absl::StrCat("HOST:PORT, without ", text.substr(0, text.find("://") + 3)));
   }

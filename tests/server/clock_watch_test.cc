@@ -13,8 +13,8 @@ constexpr std::int64_t kNow = ClockWatch::kEarliestNs + 1000 * kMinute;
 class ClockWatchTest : public ::testing::Test {
  protected:
   std::int64_t Since(std::int64_t wall_ns, int minutes_passed) {
-    return watch_.TrustedSince(wall_ns, std::chrono::steady_clock::time_point(
-                                            minutes(100 + minutes_passed)));
+    return watch_.TrustedSince(
+        wall_ns, std::chrono::steady_clock::time_point(minutes(100 + minutes_passed)));
   }
   ClockWatch watch_;
 };

@@ -67,8 +67,8 @@ TEST_F(UndecodableTest, RecordingAnswersWhatCameBeforeAndEndsWithAnError) {
   const Ended ended =
       Send(kRecord, {Config(), Place(0), whole.substr(0, whole.size() - 1), Place(2)});
   EXPECT_EQ(ended.answers, 2);
-  EXPECT_THAT(ended.status, GrpcStatusIs(grpc::StatusCode::INVALID_ARGUMENT,
-                                         HasSubstr("RecordJourneyRequest")));
+  EXPECT_THAT(ended.status,
+              GrpcStatusIs(grpc::StatusCode::INVALID_ARGUMENT, HasSubstr("RecordJourneyRequest")));
   EXPECT_EQ(Get().next_sequence(), 1);
 }
 

@@ -175,7 +175,8 @@ TEST(JourneyArchive, RefusesContentThatNoMapHas) {
   ExpectRefused(Forge([](v1::JourneyMap& m) { m.set_xs(0, NAN); }), "finite");
   ExpectRefused(Forge([](v1::JourneyMap& m) { m.set_xs(0, -0.0F); }), "xs has -0");
   ExpectRefused(Forge([](v1::JourneyMap& m) { m.set_ys(1, -0.0F); }), "ys has -0");
-  ExpectRefused(Forge([](v1::JourneyMap& m) { m.set_landmark_spreads(0, -0.0); }), "spreads has -0");
+  ExpectRefused(Forge([](v1::JourneyMap& m) { m.set_landmark_spreads(0, -0.0); }),
+                "spreads has -0");
   ExpectRefused(Forge([](v1::JourneyMap& m) { m.set_step_count(2'000'001); }), "step_count is");
   ExpectRefused(Forge([](v1::JourneyMap& m) { m.set_counts(0, 0); }), "count");
   ExpectRefused(Forge([](v1::JourneyMap& m) { m.set_landmark_spreads(0, NAN); }), "spread");
