@@ -109,7 +109,7 @@ TEST_F(JourneyQuotaTest, OfAReadOnlyStoreNothingIsDeletedAndNothingFails) {
   ReopenReadOnly();
   limits_.delete_after_s = 1;
   JourneyQuota quota(catalog_.get(), limits_);
-  EXPECT_THAT(quota.DeleteExpired(1'000'000'000'000), IsOk());
+  EXPECT_THAT(quota.DeleteExpired(1'000'000'000'000, 0), IsOk());
   EXPECT_TRUE(IsThere("old"));
 }
 

@@ -208,7 +208,7 @@ TEST_F(SessionTest, AWildcardLoadsNoMoreMapsThanTheCacheHolds) {
     const std::string name = absl::StrCat("robots/r", i, "/journeys/j");
     Create(name);
     RecordFlow(0, 5, name);
-    ASSERT_THAT(catalog_->Finish(name, "writer", {}), IsOk());
+    ASSERT_THAT(catalog_->Finish(name, "writer", false, {}), IsOk());
   }
   LandmarkQuery query;
   query.journey = "robots/-/journeys/-";
