@@ -4,7 +4,6 @@
 
 #include <cerrno>
 #include <cstdio>
-#include <cstring>
 #include <memory>
 
 #include "absl/strings/str_cat.h"
@@ -30,9 +29,7 @@ absl::Status WritePng(const std::string& path, const SourceFrame& gray) {
                               SPNG_ENCODE_FINALIZE);
   }
   if (error != 0) return absl::InternalError(absl::StrCat(path, ": ", spng_strerror(error)));
-  if (std::fflush(file.get()) != 0) {
-    return absl::InternalError(absl::StrCat(path, ": ", std::strerror(errno)));
-  }
+  if (std::fflush(file.get()) != 0) return CannotWrite(path, errno);
   return absl::OkStatus();
 }
 

@@ -126,8 +126,14 @@ TEST(ConnectionTest, RetriesUntilTheCallSucceeds) {
 }
 
 TEST(ConnectionTest, WaitsOneStepOfTheBackoffBeforeEachAttempt) {
-  const auto connection = Connection::Open({});
+  // A connection that is ready: else each attempt waits for the server as well.
+  FakeJourneyService service({});
+  FakeServer server(&service);
+  ConnectionOptions options;
+  options.address = server.address();
+  const auto connection = Connection::Open(options);
   ASSERT_THAT(connection, IsOk());
+  ASSERT_THAT(connection->WaitForServer(), IsOk());
   int calls = 0;
   const auto begin = std::chrono::steady_clock::now();
   EXPECT_THAT(

@@ -13,7 +13,7 @@ using ::testing::HasSubstr;
 TEST(PngFileTest, NamesTheErrorOfAFullDisk) {
   const SourceFrame frame{FrameEncoding::kGray8, 4, 4, std::string(16, 'x'), 0};
   EXPECT_THAT(WritePng("/dev/full", frame),
-              StatusIs(absl::StatusCode::kInternal,
+              StatusIs(absl::StatusCode::kResourceExhausted,
                        AllOf(HasSubstr("/dev/full"), HasSubstr("No space left on device"))));
 }
 
