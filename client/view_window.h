@@ -1,5 +1,5 @@
 // The part of a camera's images that is used: without the robot's own bonnet, arm or timestamp,
-// which would be taken for things that do not move. Source: own design.
+// which would be taken for things that do not move.
 #ifndef CLIENT_VIEW_WINDOW_H_
 #define CLIENT_VIEW_WINDOW_H_
 

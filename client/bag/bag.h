@@ -1,4 +1,4 @@
-// Recordings of robots (bags): topics, and the bytes of their messages. Source: own design.
+// Recordings of robots (bags): topics, and the bytes of their messages.
 #ifndef CLIENT_BAG_BAG_H_
 #define CLIENT_BAG_BAG_H_
 

@@ -1,4 +1,4 @@
-// A file that is read in pieces at any place. Source: own design.
+// A file that is read in pieces at any place.
 #ifndef CLIENT_BAG_BAG_FILE_H_
 #define CLIENT_BAG_BAG_FILE_H_
 

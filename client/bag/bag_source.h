@@ -1,4 +1,4 @@
-// Frames of one camera from a bag. Source: own design.
+// Frames of one camera from a bag.
 #ifndef CLIENT_BAG_BAG_SOURCE_H_
 #define CLIENT_BAG_BAG_SOURCE_H_
 

@@ -1,4 +1,4 @@
-// Reads numbers and texts from bytes in memory; never beyond their end. Source: own design.
+// Reads numbers and texts from bytes in memory; never beyond their end.
 #ifndef CLIENT_BAG_BYTE_READER_H_
 #define CLIENT_BAG_BYTE_READER_H_
 

@@ -1,7 +1,7 @@
 // A bag whose messages lie in chunks that may be compressed, each with an index of its messages
 // behind it. The file is scanned once from record to record; chunks are decompressed only where
 // their index is missing or names an unknown channel. So files without a summary, and those that
-// end too early, are read in the same way as whole ones. Source: own design.
+// end too early, are read in the same way as whole ones.
 #ifndef CLIENT_BAG_CHUNKED_BAG_H_
 #define CLIENT_BAG_CHUNKED_BAG_H_
 
@@ -35,7 +35,7 @@ class ChunkedBag : public Bag {
   // While scanning the file: a chunk record, index records behind it, any other record or the end.
   void BeginChunk(std::uint64_t offset);
   void AddIndex(std::uint32_t channel, std::vector<MessagePlace> places);
-  // `complete`: the file goes on behind the chunk's indexes.
+  // `complete`: the file continues after the chunk's indexes.
   void EndChunk(bool complete);
 
   // The chunk that was used last stays in memory. The view lasts until the next call.

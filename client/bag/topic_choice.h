@@ -1,4 +1,4 @@
-// Which topic of a bag is a camera's. Source: own design.
+// Which topic of a bag is a camera's.
 #ifndef CLIENT_BAG_TOPIC_CHOICE_H_
 #define CLIENT_BAG_TOPIC_CHOICE_H_
 

@@ -1,4 +1,4 @@
-// Answers as lines of comma-separated values. Source: own design.
+// Answers as lines of comma-separated values.
 #ifndef CLIENT_COMMAND_ANSWER_TABLE_H_
 #define CLIENT_COMMAND_ANSWER_TABLE_H_
 

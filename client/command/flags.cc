@@ -157,15 +157,6 @@ std::optional<v1::Camera> CameraOf(const RobotFlags& flags, const Cameras& camer
   return wire::ToProto(*camera);
 }
 
-std::vector<std::string> RemarksOn(const Cameras& cameras) {
-  std::vector<std::string> lines;
-  for (const auto& camera : cameras) {
-    const std::string line = camera == nullptr ? "" : camera->remark();
-    if (!line.empty() && (lines.empty() || lines.back() != line)) lines.push_back(line);
-  }
-  return lines;
-}
-
 void RequireCamera(const RobotFlags& flags) {
   if (flags.left.empty() && flags.right.empty()) {
     throw CLI::RequiredError("--left SOURCE, --right SOURCE or both");

@@ -48,8 +48,6 @@ absl::StatusOr<Cameras> OpenCameras(const RobotFlags& flags);
 void AddRobotFlags(CLI::App& command, RobotFlags& flags);
 // The camera of a side: as the flags give it, else as the source describes it, else nothing.
 std::optional<v1::Camera> CameraOf(const RobotFlags& flags, const Cameras& cameras, Side side);
-// Lines about what was left out of the sources.
-std::vector<std::string> RemarksOn(const Cameras& cameras);
 // Throws CLI's error of usage unless --left or --right is given.
 void RequireCamera(const RobotFlags& flags);
 
