@@ -53,8 +53,7 @@ class AnswerBag {
   AnswerBag(std::ofstream file, const FlowOptions& flow);
   void Keep(const v1::Observation& observation);
   void ForgetFlow();
-  absl::Status WritePictures(const v1::LocalizeResponse& answer, Seen seen)
-      HOMING_REQUIRES(mutex_);
+  absl::Status WritePictures(const v1::LocalizeResponse& answer, Seen seen) HOMING_REQUIRES(mutex_);
   std::uint16_t Channel(const std::string& topic, const google::protobuf::Message& message)
       HOMING_REQUIRES(mutex_);
 
