@@ -5,7 +5,7 @@
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 cmake --preset locks >/dev/null
-cmake --build --preset locks --target homing_proto_sources
+cmake --build --preset locks --target homing_proto_sources homing_foxglove_sources
 python3 - "${1:-.}" <<'PYTHON' | xargs -0 -P "$(nproc)" -I{} sh -c 'cd build/locks && {}'
 import json, re, sys
 for entry in json.load(open("build/locks/compile_commands.json")):

@@ -7,6 +7,7 @@
 #include <grpcpp/grpcpp.h>
 
 #include <atomic>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -39,6 +40,9 @@ MATCHER(IsGrpcOk, "is OK") {
 // ErrorInfo's reason; empty when there are no details.
 std::string ReasonOf(const grpc::Status& status);
 bool HasRetryInfo(const grpc::Status& status);
+// Calls again for up to 5 s while it is ABORTED: the server sees the end of a stream a moment after
+// the client.
+grpc::Status AfterStreamEnd(const std::function<grpc::Status()>& call);
 // The field that BadRequest names.
 std::string BadFieldOf(const grpc::Status& status);
 

@@ -179,14 +179,8 @@ TEST_F(JourneyServiceTest, FinishingIsIdempotentAndOnlyForTheWriterWhileItsLease
   ASSERT_THAT(Create("lapsed"), IsGrpcOk());
   // Without a writer_id: as soon as no stream records it.
   RecordFlow(0, 3, "robots/r/journeys/lapsed");
-  // The server learns of the end of the stream a moment after the client.
-  grpc::Status finished;
-  for (int i = 0; i < 500; ++i) {
-    finished = Finish("robots/r/journeys/lapsed", "");
-    if (finished.error_code() != grpc::StatusCode::ABORTED) break;
-    std::this_thread::sleep_for(std::chrono::milliseconds(10));
-  }
-  EXPECT_THAT(finished, IsGrpcOk());
+  const auto finish = [&] { return Finish("robots/r/journeys/lapsed", ""); };
+  EXPECT_THAT(AfterStreamEnd(finish), IsGrpcOk());
 }
 
 TEST_F(JourneyServiceTest, AliasingIsReportedForAMapWithProfiles) {
