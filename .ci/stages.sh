@@ -5,7 +5,7 @@ project_sources() { git ls-files '*.cc' '*.h'; }
 
 stage_packages() {
   sh deploy/install.sh build client test check fuzz
-  # What the last stages need may be missing: they then say so.
+  # Packages of the last stages may be missing: these stages then report it.
   sh deploy/install.sh container || echo "containers cannot be tried here"
 }
 
@@ -25,7 +25,7 @@ stage_proto() {
   "$buf/node_modules/.bin/buf" lint proto
 }
 
-# A Debian 12 with git alone, and a clone of what is committed.
+# A Debian 12 with git only, and a clone of the last commit.
 stage_bare() {
   [ "$(id -u)" -eq 0 ] || skip "a bare root needs root"
   command -v mmdebstrap >/dev/null || skip "mmdebstrap is not installed"
@@ -38,7 +38,7 @@ stage_bare() {
 
 in_bare_root() { DATA=${HOMING_DATA:-} sh .ci/bare_root.sh "$scratch/root" "$@"; }
 
-# The first command of README.md; then, with images of one's own, it must need neither network nor more than 10 s to set up.
+# The first command of README.md; then with other images, where set-up must need no network and at most 10 s.
 stage_quickstart() {
   if [ ! -d "$scratch/root/homing" ]; then
     sh deploy/quickstart.sh
@@ -66,14 +66,17 @@ stage_tests() {
 
 stage_asan() { HOMING_PRESET=asan sh tests/run.sh; }
 
-# Sources outside tests/, as they are compiled together; nothing is compiled but what they include.
+# Sources outside tests/, in their unity files; only generated sources are built.
 stage_tidy() {
   cmake --preset tidy
   cmake --build --preset tidy --target homing_proto_sources homing_foxglove_sources
   run-clang-tidy -quiet -p build/tidy -j "$jobs" -extra-arg=-Wno-unknown-warning-option '^(?!.*(\.pb\.cc|/homing_proto\.dir/.*)$)'
 }
 
-# Kills, power cuts, full and failing disks: few of each. Goes on from the build of the tests.
+# Lock annotations, and each source by itself: about five minutes of one processor.
+stage_locks() { .ci/locks.sh; }
+
+# Kills, power cuts, full and failing disks: few of each. Uses the build of the tests.
 stage_faults() {
   if [ -d "$scratch/root/homing" ]; then
     in_bare_root sh /homing/tests/faults/run.sh --quick

@@ -1,8 +1,8 @@
 #include "client/backoff.h"
 
 #include <algorithm>
-#include <condition_variable>
-#include <mutex>
+
+#include "homing/base/mutex.h"
 
 namespace homing::client {
 
@@ -20,10 +20,16 @@ std::chrono::milliseconds Backoff::Next() {
 }
 
 bool SleepFor(std::chrono::milliseconds duration, const std::stop_token& stop) {
-  std::mutex mutex;
-  std::condition_variable_any wake;
-  std::unique_lock lock(mutex);
-  wake.wait_for(lock, stop, duration, [] { return false; });
+  Mutex mutex;
+  ConditionVariable wake;
+  const std::stop_callback on_stop(stop, [&] {
+    const MutexLock lock(mutex);
+    wake.NotifyAll();
+  });
+  const auto end = std::chrono::steady_clock::now() + duration;
+  const MutexLock lock(mutex);
+  while (!stop.stop_requested() && wake.WaitUntil(mutex, end)) {
+  }
   return !stop.stop_requested();
 }
 

@@ -1,4 +1,4 @@
-// Exponential waiting times between attempts. Source: own design.
+// Exponential waiting times between attempts.
 #ifndef CLIENT_BACKOFF_H_
 #define CLIENT_BACKOFF_H_
 
@@ -9,12 +9,13 @@
 namespace homing::client {
 
 struct BackoffOptions {
-  // First wait and longest wait.
+  // The first and the longest wait: a client finds a restarted server within a second.
   std::chrono::milliseconds initial{100};
-  std::chrono::milliseconds longest{3000};
+  std::chrono::milliseconds longest{700};
   // Growth from one wait to the next. [1, 10].
   double factor = 1.7;
-  // Each wait is shortened by up to this share, so that a fleet does not come back as one. [0, 1].
+  // Each wait is shortened by a random part of up to this fraction, so that the robots of a fleet
+  // do not return at the same time. [0, 1].
   double jitter = 0.3;
 };
 
@@ -24,7 +25,7 @@ class Backoff {
   explicit Backoff(const BackoffOptions& options = {});
   // The next wait.
   std::chrono::milliseconds Next();
-  // After success: begins again with the first wait.
+  // Call it after a success: restarts with the first wait.
   void Reset() { current_ = options_.initial; }
 
  private:
@@ -33,7 +34,7 @@ class Backoff {
   std::minstd_rand random_;
 };
 
-// Sleeps; false if stopped meanwhile.
+// Sleeps for `duration`; false if stopped meanwhile.
 bool SleepFor(std::chrono::milliseconds duration, const std::stop_token& stop);
 
 }  // namespace homing::client

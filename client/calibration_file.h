@@ -1,4 +1,4 @@
-// Files that calibration programs write. Source: the formats' own descriptions; own design.
+// Files that calibration programs write. Source: the formats' own descriptions.
 #ifndef CLIENT_CALIBRATION_FILE_H_
 #define CLIENT_CALIBRATION_FILE_H_
 

@@ -1,5 +1,5 @@
 // What robots and calibration programs say of a camera, to the camera of this program. Source:
-// sensor_msgs/CameraInfo; own design.
+// sensor_msgs/CameraInfo.
 #ifndef CLIENT_CAMERA_INFO_H_
 #define CLIENT_CAMERA_INFO_H_
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "absl/strings/str_cat.h"
-#include "homing/base/range_check.h"
+#include "homing/base/field_error.h"
 #include "homing/base/status_macros.h"
 #include "proto/wire/observation_conversion.h"
 
@@ -47,53 +47,80 @@ absl::StatusOr<Cameras> OpenCameras(const std::string& left, const std::string& 
   return cameras;
 }
 
-CameraObservations::CameraObservations(Cameras cameras, const std::optional<FlowOptions>& flow)
-    : cameras_(std::move(cameras)), flow_options_(flow) {
-  ForgetReference();
+CameraObservations::CameraObservations(std::unique_ptr<CameraInstants> instants,
+                                       const std::optional<FlowOptions>& flow)
+    : instants_(std::move(instants)), flow_options_(flow) {
+  Forget();
 }
 
-void CameraObservations::ForgetReference() {
+void CameraObservations::StartAt(std::int64_t sequence) {
+  base_ = next_ = sequence;
+  const MutexLock lock(mutex_);
+  marks_from_ = sequence;
+}
+
+void CameraObservations::Forget() {
   if (flow_options_) flow_.emplace(*flow_options_);
+  reference_.reset();
 }
 
-absl::StatusOr<std::optional<CameraObservations::Instant>> CameraObservations::NextInstant() {
-  Instant instant;
-  for (std::size_t camera = 0; camera < cameras_.size(); ++camera) {
-    if (cameras_[camera] == nullptr) continue;
-    HOMING_ASSIGN_OR_RETURN(instant[camera], cameras_[camera]->Next());
-    if (instant[camera] && !instant[camera]->fault.empty()) {
-      return absl::InvalidArgumentError(instant[camera]->fault);
-    }
+std::int64_t CameraObservations::next_mark() const {
+  const MutexLock lock(mutex_);
+  return marks_from_ + static_cast<std::int64_t>(marks_.size());
+}
+
+void CameraObservations::AddMark(const Mark& mark) {
+  const MutexLock lock(mutex_);
+  marks_.push_back(mark);
+}
+
+std::int64_t CameraObservations::FrameOf(std::int64_t sequence) const {
+  const MutexLock lock(mutex_);
+  const std::int64_t index = sequence - marks_from_;
+  if (index < 0 || index >= static_cast<std::int64_t>(marks_.size())) return -1;
+  return marks_[static_cast<std::size_t>(index)].frame;
+}
+
+absl::StatusOr<std::optional<CameraInstants::Instant>> CameraObservations::ReadInstant() {
+  // A stop ends a live source by itself, without an error.
+  if (stop_.stop_requested() && !instants_->live()) return absl::CancelledError("stopped");
+  here_ = {instants_->place(), count_};
+  HOMING_ASSIGN_OR_RETURN(auto instant, instants_->Next());
+  if (!instant) return instant;
+  if (instant->gap_before) {
+    Forget();
+    // Flow is sent only where it spans no gap.
+    break_ = !flow_ && count_ > 0;
   }
-  if (!instant[0] && !instant[1]) return std::optional<Instant>();
-  ++next_frame_;
-  return std::make_optional(std::move(instant));
+  ++count_;
+  return instant;
 }
 
 absl::StatusOr<std::optional<Observation>> CameraObservations::NextFlow() {
   while (true) {
-    if (stop_.stop_requested()) return absl::CancelledError("stopped");
-    HOMING_ASSIGN_OR_RETURN(const auto instant, NextInstant());
+    HOMING_ASSIGN_OR_RETURN(const auto instant, ReadInstant());
     if (!instant) return std::optional<Observation>();
-    Observation frames = ViewFrames(*instant);
-    auto flow_or = flow_->Compute(frames);
-    if (!flow_or.ok())
-      return Within(absl::StrCat("frame[", next_frame_ - 1, "]"), flow_or.status());
-    ObservedFlow flow = *std::move(flow_or);
-    if (!flow.makes_step) continue;
-    frames.frame = next_frame_ - 1;
-    for (std::size_t camera = 0; camera < flow.fields.size(); ++camera) {
-      frames.views[camera] = std::monostate();
-      if (flow.fields[camera]) frames.views[camera] = *std::move(flow.fields[camera]);
+    if (!reference_) reference_ = here_;
+    Observation observation = ViewFrames(instant->frames);
+    auto computed = flow_->Compute(observation);
+    if (!computed.ok()) {
+      return Within(absl::StrCat("frame[", instant->index, "]"), computed.status());
     }
-    return std::make_optional(std::move(frames));
+    ObservedFlow flow = *std::move(computed);
+    if (!flow.makes_step) continue;
+    AddMark({*std::exchange(reference_, here_), instant->index});
+    observation.frame = base_frame_ + here_.count;
+    for (std::size_t camera = 0; camera < flow.fields.size(); ++camera) {
+      observation.views[camera] = std::monostate();
+      if (flow.fields[camera]) observation.views[camera] = *std::move(flow.fields[camera]);
+    }
+    return std::make_optional(std::move(observation));
   }
 }
 
 v1::Observation CameraObservations::Number(Observation observation) {
   observation.sequence = next_++;
   observation.break_before = std::exchange(break_, false);
-  if (!flow_ && next_frame_ - 1 != observation.sequence) observation.frame = next_frame_ - 1;
   return wire::ToProto(observation);
 }
 
@@ -103,59 +130,91 @@ absl::StatusOr<std::optional<v1::Observation>> CameraObservations::Next() {
     if (!flow) return std::optional<v1::Observation>();
     return std::make_optional(Number(*std::move(flow)));
   }
-  HOMING_ASSIGN_OR_RETURN(const auto instant, NextInstant());
+  HOMING_ASSIGN_OR_RETURN(const auto instant, ReadInstant());
   if (!instant) return std::optional<v1::Observation>();
-  return std::make_optional(Number(ViewFrames(*instant)));
+  AddMark({here_, instant->index});
+  return std::make_optional(Number(ViewFrames(instant->frames)));
 }
 
-bool CameraObservations::SeekCameras(std::int64_t frame) {
-  for (const auto& camera : cameras_) {
-    if (camera == nullptr) continue;
-    const std::int64_t size = camera->size();
-    if (!camera->Seek(size < 0 ? frame : std::min(frame, size))) return false;
+bool CameraObservations::Skip() {
+  if (flow_) {
+    const auto next = NextFlow();
+    return next.ok() && next->has_value();
   }
-  ForgetReference();
-  next_frame_ = frame;
+  const auto instant = ReadInstant();
+  if (!instant.ok() || !*instant) return false;
+  AddMark({here_, (*instant)->index});
+  return true;
+}
+
+bool CameraObservations::GoTo(const Point& point) {
+  if (!instants_->GoTo(point.place)) return false;
+  Forget();
+  count_ = point.count;
+  return true;
+}
+
+bool CameraObservations::GoBack(std::int64_t sequence) {
+  Point from;
+  {
+    const MutexLock lock(mutex_);
+    const std::int64_t index = sequence - marks_from_;
+    if (index >= static_cast<std::int64_t>(marks_.size())) return true;
+    if (index < 0) {
+      marks_from_ = base_;
+      marks_.clear();
+    } else {
+      from = marks_[static_cast<std::size_t>(index)].from;
+      marks_.resize(static_cast<std::size_t>(index));
+    }
+  }
+  return GoTo(from);
+}
+
+// The frame that made the last step is then the reference. The frames before it are read, since
+// only that shows which ones are bad, but not tracked.
+void CameraObservations::SkipToLastFrame(std::int64_t sequence) {
+  while (count_ < last_frame_) {
+    const auto instant = ReadInstant();
+    if (!instant.ok() || !*instant) break;
+  }
+  Forget();
+  const MutexLock lock(mutex_);
+  marks_from_ = sequence;
+  marks_.clear();
+}
+
+bool CameraObservations::Seek(std::int64_t sequence) {
+  if (sequence < base_ || instants_->live() || !GoBack(sequence)) return false;
+  // Without earlier sources the frame's number is its count.
+  const bool begins = flow_ && base_ == 0 && count_ == 0;
+  if (begins && sequence > 0 && last_frame_ >= 0) SkipToLastFrame(sequence);
+  // Which frames make an observation is known only after they were read.
+  while (next_mark() < sequence && Skip()) {
+  }
+  if (base_ > 0 && base_frame_ == 0 && last_frame_ >= 0) {
+    base_frame_ = reference_ ? last_frame_ - reference_->count : last_frame_ + 1;
+  }
+  next_ = sequence;
   break_ = false;
   return true;
 }
 
-// The step before was made by a frame that is then the reference: tracking begins there. Where that
-// frame is not known, it is found from the beginning.
-bool CameraObservations::SeekFlow(std::int64_t sequence) {
-  const bool is_known = last_frame_ >= 0;
-  if (!SeekCameras(is_known ? last_frame_ : 0)) return false;
-  for (std::int64_t skipped = is_known ? sequence : 0; skipped < sequence; ++skipped) {
-    const auto skip = NextFlow();
-    // The next call meets the same end or error.
-    if (!skip.ok() || !*skip) break;
-  }
-  return true;
-}
-
-bool CameraObservations::Seek(std::int64_t sequence) {
-  const bool found = flow_ ? SeekFlow(sequence) : SeekCameras(sequence);
-  last_frame_ = -1;
-  if (found) next_ = sequence;
-  return found;
-}
-
 void CameraObservations::ContinueAt(std::int64_t sequence) {
-  ForgetReference();
-  next_ = sequence;
-  // No flow that is sent then spans the break, but their frames must grow.
+  if (!Seek(sequence)) {
+    Forget();
+    next_ = sequence;
+    base_frame_ = std::max(base_frame_, last_frame_ + 1 - count_);
+    const MutexLock lock(mutex_);
+    marks_from_ = sequence;
+    marks_.clear();
+  }
   break_ = !flow_;
-  if (flow_) next_frame_ = std::max(next_frame_, last_frame_ + 1);
 }
 
 std::int64_t CameraObservations::size() const {
-  std::int64_t frames = 0;
-  for (const auto& camera : cameras_) {
-    if (camera == nullptr) continue;
-    if (camera->size() < 0) return -1;
-    frames = std::max(frames, camera->size());
-  }
-  return frames;
+  const std::int64_t instants = instants_->size();
+  return instants < 0 ? -1 : base_ + instants;
 }
 
 }  // namespace homing::client

@@ -1,5 +1,5 @@
-// A robot's one or two cameras to numbered observations: the frames themselves, or the flow
-// computed here with the journey's settings. Source: own design; flow: paper II-B.
+// Makes numbered observations from a robot's one or two cameras: the frames, or the flow computed
+// here with the journey's settings. Flow: paper II-B.
 #ifndef CLIENT_CAMERA_OBSERVATIONS_H_
 #define CLIENT_CAMERA_OBSERVATIONS_H_
 
@@ -9,56 +9,91 @@
 #include <stop_token>
 #include <string>
 #include <utility>
+#include <vector>
 
+#include "client/camera_instants.h"
 #include "client/frame_source.h"
 #include "client/observation_stream.h"
+#include "homing/base/mutex.h"
 #include "homing/flow/observation.h"
 
 namespace homing::client {
 
-// Indexed by Side: the robot's cameras.
-using Cameras = std::array<std::unique_ptr<FrameSource>, 2>;
-
-// Opens those that are named; at least one. As OpenFrameSource.
+// Opens the named sources; at least one. Errors of OpenFrameSource.
 absl::StatusOr<Cameras> OpenCameras(const std::string& left, const std::string& right);
 
 class CameraObservations : public ObservationStream {
  public:
-  // With `flow` set, flow vectors, of the frames that make a step: the flow since the frame that
-  // made the step before. REQUIRES: a camera; Validate(*flow).ok().
-  CameraObservations(Cameras cameras, const std::optional<FlowOptions>& flow);
+  // With `flow` set, observations hold flow vectors, one for each instant that makes a step: the
+  // flow since the instant that made the step before. REQUIRES: Validate(*flow).ok().
+  CameraObservations(std::unique_ptr<CameraInstants> instants,
+                     const std::optional<FlowOptions>& flow);
+
+  // The first instant becomes observation `sequence`: the earlier ones came from another source.
+  // Call it before anything is read.
+  void StartAt(std::int64_t sequence);
+  // Next is CANCELLED once this is requested, also while nothing moves and no flow is made.
+  void StopAt(std::stop_token stop) { stop_ = std::move(stop); }
 
   absl::StatusOr<std::optional<v1::Observation>> Next() override;
   void set_last_frame(std::int64_t frame) override { last_frame_ = frame; }
   bool Seek(std::int64_t sequence) override;
   void ContinueAt(std::int64_t sequence) override;
 
-  // Next is CANCELLED once this is requested, also while nothing moves and no flow is made.
-  void StopAt(std::stop_token stop) { stop_ = std::move(stop); }
-
-  // Number of frames of the longer camera, -1 if not known.
+  // Number of instants, -1 if not known.
   std::int64_t size() const;
+  // Index in the source of the frame that made an observation read already, -1: none did.
+  // Thread-safe.
+  std::int64_t FrameOf(std::int64_t sequence) const;
 
  private:
-  // Frames of one instant; own the bytes that an Observation views.
-  using Instant = std::array<std::optional<SourceFrame>, 2>;
+  // A point from which reading can start again.
+  struct Point {
+    CameraInstants::Place place;
+    // Number of instants read before it.
+    std::int64_t count = 0;
+  };
+  struct Mark {
+    // Reading from here gives the observation again.
+    Point from;
+    // Index in the source.
+    std::int64_t frame = 0;
+  };
 
-  absl::StatusOr<std::optional<Instant>> NextInstant();
+  // Also sets here_.
+  absl::StatusOr<std::optional<CameraInstants::Instant>> ReadInstant();
   absl::StatusOr<std::optional<Observation>> NextFlow();
   v1::Observation Number(Observation observation);
-  void ForgetReference();
-  bool SeekCameras(std::int64_t frame);
-  bool SeekFlow(std::int64_t sequence);
+  // Reads an observation and drops it. False: the end or an error, which Next meets again.
+  bool Skip();
+  std::int64_t next_mark() const;
+  void AddMark(const Mark& mark);
+  void Forget();
+  bool GoTo(const Point& point);
+  // Goes to the observation before which all is read already, and drops the later marks.
+  bool GoBack(std::int64_t sequence);
+  void SkipToLastFrame(std::int64_t sequence);
 
-  Cameras cameras_;
+  std::unique_ptr<CameraInstants> instants_;
   std::optional<FlowOptions> flow_options_;
   std::optional<ObservationFlow> flow_;
+  // Flow only: the instant that the next flow starts from; nothing before the first one.
+  std::optional<Point> reference_;
+  std::int64_t base_ = 0;
+  // Flow only: Observation::frame of the source's first instant.
+  std::int64_t base_frame_ = 0;
   std::int64_t next_ = 0;
-  // Index of the next frame in the source.
-  std::int64_t next_frame_ = 0;
+  // Number of instants read, and where the last one begins.
+  std::int64_t count_ = 0;
+  Point here_;
   std::int64_t last_frame_ = -1;
   std::stop_token stop_;
   bool break_ = false;
+  mutable Mutex mutex_;
+  // Sequence of the first mark.
+  std::int64_t marks_from_ HOMING_GUARDED_BY(mutex_) = 0;
+  // One for each observation that was read.
+  std::vector<Mark> marks_ HOMING_GUARDED_BY(mutex_);
 };
 
 }  // namespace homing::client

@@ -1,4 +1,4 @@
-// A file that comes in chunks. Source: own design.
+// Receives a file in chunks.
 #ifndef CLIENT_CHUNK_FILE_H_
 #define CLIENT_CHUNK_FILE_H_
 
@@ -12,7 +12,7 @@
 
 namespace homing::client {
 
-// Errors as the call's; RESOURCE_EXHAUSTED: `file` cannot be written.
+// Errors of the call; RESOURCE_EXHAUSTED: `file` cannot be written.
 template <typename Response>
 absl::Status WriteChunks(grpc::ClientReaderInterface<Response>& reader,
                          grpc::ClientContext* context, std::ostream& file) {

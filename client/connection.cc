@@ -4,34 +4,36 @@
 #include <grpcpp/security/credentials.h>
 
 #include <algorithm>
-#include <fstream>
-#include <sstream>
+#include <cstdlib>
 
 #include "absl/strings/ascii.h"
 #include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
 #include "client/backoff.h"
 #include "client/rpc_status.h"
+#include "client/server_address.h"
 #include "client/token_interceptor.h"
+#include "homing/base/field_error.h"
+#include "homing/base/file_text.h"
 #include "homing/base/status_macros.h"
 
 namespace homing::client {
 namespace {
 
-// A robot's wall clock jumps when it learns the time.
+// A robot's wall clock jumps when it is set.
 using Clock = std::chrono::steady_clock;
 
 constexpr int kReconnectBackoffMs = 100;
-// After a refusal: one more attempt fits in, so that a server on its way up is not missed.
+// A client finds a restarted server within a second.
+constexpr int kMaxReconnectBackoffMs = 700;
+constexpr std::chrono::milliseconds kStopCheck{100};
+// Time after a refusal: enough for one more attempt, for a server that is starting.
 constexpr std::chrono::milliseconds kSecondAttempt{400};
 
 absl::StatusOr<std::string> ReadPem(const std::string& flag, const std::string& path) {
   if (path.empty()) return std::string();
-  std::ifstream file(path, std::ios::binary);
-  if (!file) return absl::NotFoundError(absl::StrCat(flag, ": cannot read ", path));
-  std::ostringstream text;
-  text << file.rdbuf();
-  return text.str();
+  absl::StatusOr<std::string> text = ReadFile(path);
+  return text.ok() ? std::move(text) : Within(flag, text.status());
 }
 
 bool IsThisMachine(const std::string& address) {
@@ -54,16 +56,23 @@ absl::StatusOr<std::shared_ptr<grpc::ChannelCredentials>> MakeCredentials(
   return grpc::SslCredentials(ssl);
 }
 
-grpc::ChannelArguments MakeArguments() {
+// gRPC's own resolver knows neither mDNS nor what else the system is set up for. Read by gRPC when
+// it starts, so before the first channel; what the user sets stays.
+void UseResolverOfSystem() { ::setenv("GRPC_DNS_RESOLVER", "native", /*overwrite=*/0); }
+
+grpc::ChannelArguments MakeArguments(const std::string& address) {
   grpc::ChannelArguments arguments;
-  // A dead link shows itself within half a minute even when nothing is sent.
+  // Detects a dead link within half a minute, even without traffic.
   arguments.SetInt(GRPC_ARG_KEEPALIVE_TIME_MS, 20000);
   arguments.SetInt(GRPC_ARG_KEEPALIVE_TIMEOUT_MS, 10000);
   arguments.SetInt(GRPC_ARG_INITIAL_RECONNECT_BACKOFF_MS, kReconnectBackoffMs);
-  // gRPC's time for one attempt to connect, TLS and all: a slow radio link takes seconds.
+  // Time of one attempt to connect, with TLS: a slow radio link takes seconds.
   arguments.SetInt(GRPC_ARG_MIN_RECONNECT_BACKOFF_MS, 5000);
-  arguments.SetInt(GRPC_ARG_MAX_RECONNECT_BACKOFF_MS, 2000);
-  // A Connection is a connection: programs with several of them do not lose all at once.
+  arguments.SetInt(GRPC_ARG_MAX_RECONNECT_BACKOFF_MS, kMaxReconnectBackoffMs);
+  arguments.SetInt(GRPC_ARG_ENABLE_HTTP_PROXY, MayUseProxy(address) ? 1 : 0);
+  // After a failure the name is resolved again at once: by default only every 30 s.
+  arguments.SetInt(GRPC_ARG_DNS_MIN_TIME_BETWEEN_RESOLUTIONS_MS, kMaxReconnectBackoffMs);
+  // Each Connection has its own TCP connection: a program with several does not lose all at once.
   arguments.SetInt(GRPC_ARG_USE_LOCAL_SUBCHANNEL_POOL, 1);
   // The server limits messages; answers hold no images.
   arguments.SetMaxReceiveMessageSize(64 * 1024 * 1024);
@@ -96,14 +105,17 @@ Connection::Connection(ConnectionOptions options, std::shared_ptr<grpc::Channel>
     : options_(std::move(options)), channel_(std::move(channel)) {}
 
 absl::StatusOr<Connection> Connection::Open(const ConnectionOptions& options) {
+  HOMING_RETURN_IF_ERROR(CheckServerAddress(options.address));
+  UseResolverOfSystem();
   HOMING_ASSIGN_OR_RETURN(const auto credentials, MakeCredentials(options));
   HOMING_ASSIGN_OR_RETURN(const std::string token, ReadToken(options));
   if (token.empty()) {
-    return Connection(options,
-                      grpc::CreateCustomChannel(options.address, credentials, MakeArguments()));
+    return Connection(options, grpc::CreateCustomChannel(options.address, credentials,
+                                                         MakeArguments(options.address)));
   }
-  return Connection(options, grpc::experimental::CreateCustomChannelWithInterceptors(
-                                 options.address, credentials, MakeArguments(), SendToken(token)));
+  return Connection(
+      options, grpc::experimental::CreateCustomChannelWithInterceptors(
+                   options.address, credentials, MakeArguments(options.address), SendToken(token)));
 }
 
 absl::Status Connection::WaitForServer() const {
@@ -118,13 +130,23 @@ absl::Status Connection::WaitForServer() const {
     const auto left = limit - Clock::now();
     if (state == GRPC_CHANNEL_SHUTDOWN || left <= left.zero() ||
         !channel_->WaitForStateChange(state, std::chrono::system_clock::now() + left)) {
-      return absl::UnavailableError(absl::StrCat(
-          "no server answers at ", options_.address, " (--server)",
-          UsesTls(options_) ? ", or TLS failed: the CA, or the certificate of one side, is not good"
-                            : ", or it wants TLS (--tls-ca)"));
+      return ExplainUnreachable(options_.address, UsesTls(options_));
     }
   }
   return absl::OkStatus();
+}
+
+bool Connection::AwaitReady(const std::stop_token& stop) const {
+  const auto until = Clock::now() + std::chrono::milliseconds(kMaxReconnectBackoffMs);
+  while (!stop.stop_requested()) {
+    const auto state = channel_->GetState(/*try_to_connect=*/true);
+    if (state == GRPC_CHANNEL_READY) return true;
+    const auto left = until - Clock::now();
+    if (state == GRPC_CHANNEL_SHUTDOWN || left <= left.zero()) return false;
+    const auto slice = std::min<Clock::duration>(left, kStopCheck);
+    channel_->WaitForStateChange(state, std::chrono::system_clock::now() + slice);
+  }
+  return false;
 }
 
 absl::Status Connection::Retry(const std::stop_token& stop,
@@ -134,8 +156,11 @@ absl::Status Connection::Retry(const std::stop_token& stop,
   while (true) {
     absl::Status status = call();
     if (!IsRetriable(status) || Clock::now() >= deadline) return status;
-    const auto wait = std::max(backoff.Next(), RetryDelay(status).value_or(backoff.Next()));
+    const auto wait =
+        std::max(backoff.Next(), RetryDelay(status).value_or(std::chrono::milliseconds(0)));
     if (!SleepFor(wait, stop)) return absl::CancelledError("stopped");
+    AwaitReady(stop);
+    if (stop.stop_requested()) return absl::CancelledError("stopped");
   }
 }
 

@@ -1,4 +1,4 @@
-// The channel to one server. Source: own design.
+// The channel to one server.
 #ifndef CLIENT_CONNECTION_H_
 #define CLIENT_CONNECTION_H_
 
@@ -16,41 +16,46 @@
 namespace homing::client {
 
 struct ConnectionOptions {
-  // host:port or unix:path.
+  // host:port or unix:path. Names are resolved as by every other program of the machine; a proxy of
+  // the environment is used for public addresses only.
   std::string address = "127.0.0.1:50551";
-  // PEM files. Any of them set: TLS. Without `tls_ca` the system's roots are trusted; certificate
-  // and key (mutual TLS) come together.
+  // PEM files. Any of them turns TLS on. Without `tls_ca` the system's roots are trusted.
+  // Certificate and key (mutual TLS) must be given together.
   std::string tls_ca;
   std::string tls_cert;
   std::string tls_key;
-  // File of a bearer token, for robots without a certificate. Sent with every call; without TLS
-  // only to this machine, unless `insecure`.
+  // File with a bearer token, for robots without a certificate. It is sent with every call; without
+  // TLS only to this machine, unless `insecure`.
   std::string token_file;
   bool insecure = false;
-  // How long the first connection may take.
+  // Longest time for the first connection.
   std::chrono::milliseconds connect_timeout{5000};
-  // How long a broken connection is tried again since it last worked.
+  // Time for which a broken connection is retried, since it last worked.
   std::chrono::milliseconds retry_for{60000};
 };
 
 bool UsesTls(const ConnectionOptions& options);
-// "" without a token file. INVALID_ARGUMENT: no token, or one that would leave this machine in
-// plain text; NOT_FOUND.
+// "" without a token file. INVALID_ARGUMENT: the file holds no token, or the token would leave this
+// machine in plain text; NOT_FOUND.
 absl::StatusOr<std::string> ReadToken(const ConnectionOptions& options);
 
 // Thread-safe.
 class Connection {
  public:
-  // Does not wait for the server. INVALID_ARGUMENT: key without certificate, a token that would be
-  // sent in plain text, or none in its file; NOT_FOUND: a file.
+  // Does not wait for the server. INVALID_ARGUMENT: an address of another form, a key without
+  // certificate, a token that would be sent in plain text, or a file without a token; NOT_FOUND: a
+  // file.
   static absl::StatusOr<Connection> Open(const ConnectionOptions& options);
 
   const std::shared_ptr<grpc::Channel>& channel() const { return channel_; }
   const ConnectionOptions& options() const { return options_; }
 
-  // UNAVAILABLE naming the address: nothing answers there. Returns at the second refusal, and
-  // at `connect_timeout` at the latest.
+  // UNAVAILABLE with the address and the reason: no server answers. Returns after the second
+  // refusal, and at the latest after `connect_timeout`.
   absl::Status WaitForServer() const;
+
+  // Waits until the server is connected, for one attempt to reconnect at most. False: it is not.
+  bool AwaitReady(const std::stop_token& stop) const;
 
   // Repeats a unary `call` while it IsRetriable, for `retry_for` since the first attempt.
   // CANCELLED: stopped.

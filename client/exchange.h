@@ -1,25 +1,23 @@
-// One attempt of a two-way stream: observations out within a window, answers in. Source: own
-// design.
+// One attempt of a bidirectional stream: sends observations within a window, receives answers.
 #ifndef CLIENT_EXCHANGE_H_
 #define CLIENT_EXCHANGE_H_
 
 #include <grpcpp/client_context.h>
 #include <grpcpp/support/sync_stream.h>
 
-#include <condition_variable>
 #include <functional>
 #include <memory>
-#include <mutex>
 #include <thread>
 
 #include "absl/status/status.h"
 #include "client/resend_buffer.h"
 #include "client/rpc_status.h"
+#include "homing/base/mutex.h"
 
 namespace homing::client {
 
-// `fill` makes a request of an observation, on the calling thread; `on_answer` is called on another
-// thread, in order. An error of either ends the stream and is returned.
+// `fill` makes a request from an observation, on the calling thread. `on_answer` is called on
+// another thread, in order. An error of either ends the stream and is returned.
 template <typename Request, typename Response>
 class Exchange {
  public:
@@ -30,12 +28,16 @@ class Exchange {
   Exchange(grpc::ClientContext* context, Stream* stream, int window)
       : context_(context), stream_(stream), window_(window) {}
 
-  // To the end of `buffer`, one answer an observation. UNAVAILABLE: the stream ended early.
+  // Sends to the end of `buffer`; each observation has one answer. UNAVAILABLE: the stream ended
+  // early.
   absl::Status Run(ResendBuffer* buffer, const Fill& fill, const OnAnswer& on_answer) {
     std::thread reader([&] { ReadAnswers(on_answer); });
     WriteAll(buffer, fill);
     reader.join();
     absl::Status status = FromGrpc(stream_->Finish());
+    const MutexLock lock(mutex_);
+    // A source gives its error again when the broken link is restored.
+    if (source_failed_ && !status.ok()) return status;
     if (!error_.ok()) return error_;
     if (!status.ok()) return status;
     if (!ended_ || open_ > 0) return absl::UnavailableError("the server ended the stream early");
@@ -47,20 +49,22 @@ class Exchange {
     Response response;
     while (stream_->Read(&response)) {
       if (const absl::Status status = on_answer(response); !status.ok()) Fail(status);
-      const std::lock_guard lock(mutex_);
+      const MutexLock lock(mutex_);
       --open_;
-      changed_.notify_all();
+      changed_.NotifyAll();
     }
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     closed_ = true;
-    changed_.notify_all();
+    changed_.NotifyAll();
   }
 
   void WriteAll(ResendBuffer* buffer, const Fill& fill) {
     while (WaitForRoom()) {
       auto next = buffer->Next();
-      if (!next.ok()) return Fail(next.status());
-      if (*next == nullptr) {
+      if (!next.ok() || *next == nullptr) {
+        // What was sent before a source failed is answered first.
+        source_failed_ = !next.ok();
+        if (source_failed_) SetError(next.status());
         ended_ = true;
         stream_->WritesDone();
         return;
@@ -68,7 +72,7 @@ class Exchange {
       Request request;
       fill(**next, &request);
       {
-        const std::lock_guard lock(mutex_);
+        const MutexLock lock(mutex_);
         ++open_;
       }
       if (!stream_->Write(request)) return;
@@ -77,29 +81,32 @@ class Exchange {
 
   // False: the stream is closed.
   bool WaitForRoom() {
-    std::unique_lock lock(mutex_);
-    changed_.wait(lock, [&] { return closed_ || open_ < window_; });
+    const MutexLock lock(mutex_);
+    while (!closed_ && open_ >= window_) changed_.Wait(mutex_);
     return !closed_;
   }
 
+  void SetError(const absl::Status& status) {
+    const MutexLock lock(mutex_);
+    if (error_.ok()) error_ = status;
+  }
+
   void Fail(const absl::Status& status) {
-    {
-      const std::lock_guard lock(mutex_);
-      if (error_.ok()) error_ = status;
-    }
+    SetError(status);
     context_->TryCancel();
   }
 
   grpc::ClientContext* context_;
   Stream* stream_;
   const int window_;
-  std::mutex mutex_;
-  std::condition_variable changed_;
+  Mutex mutex_;
+  ConditionVariable changed_;
   // Observations sent and not answered.
-  int open_ = 0;
-  bool closed_ = false;
+  int open_ HOMING_GUARDED_BY(mutex_) = 0;
+  bool closed_ HOMING_GUARDED_BY(mutex_) = false;
   bool ended_ = false;
-  absl::Status error_;
+  bool source_failed_ = false;
+  absl::Status error_ HOMING_GUARDED_BY(mutex_);
 };
 
 }  // namespace homing::client

@@ -6,6 +6,7 @@
 #include "absl/strings/str_cat.h"
 #include "client/bag/bag_source.h"
 #include "client/image_folder.h"
+#include "client/image_names.h"
 #include "client/opencv_readers.h"
 #include "client/simulated_source.h"
 #include "homing/base/status_macros.h"
@@ -37,12 +38,16 @@ absl::StatusOr<std::unique_ptr<FrameSource>> OpenFrameSource(const std::string& 
   }
   if (const auto bag = bag::ParseBagName(source)) return bag::OpenBagSource(*bag, camera);
   if (IsFolderOrGlob(source)) {
-    HOMING_ASSIGN_OR_RETURN(auto paths, ListImages(source));
-    return MakeImageFolder(std::move(paths));
+    HOMING_ASSIGN_OR_RETURN(auto images, ListImages(source));
+    return MakeImageFolder(std::move(images));
   }
   std::error_code error;
   if (!std::filesystem::exists(source, error)) {
-    return absl::NotFoundError(absl::StrCat("no such source: ", source));
+    return absl::NotFoundError(absl::StrCat(source, ": no such file or folder"));
+  }
+  if (std::filesystem::is_regular_file(source, error) && HasImageEnding(source)) {
+    return absl::InvalidArgumentError(
+        absl::StrCat(source, " is one image; give its folder, or a glob of images in quotes"));
   }
   HOMING_ASSIGN_OR_RETURN(const OpenCvReaders* const readers, LoadOpenCvReaders());
   return readers->open_video(source);

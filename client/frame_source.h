@@ -1,4 +1,4 @@
-// Where a robot's frames come from: image folders, video files, cameras, the simulator.
+// Sources of a robot's frames: image folders, video files, cameras, the simulator.
 #ifndef CLIENT_FRAME_SOURCE_H_
 #define CLIENT_FRAME_SOURCE_H_
 
@@ -15,7 +15,7 @@
 
 namespace homing::client {
 
-// One image; owns its bytes. JPEG and PNG files are passed on as they are.
+// One image; owns its bytes. JPEG and PNG files are passed on unchanged.
 struct SourceFrame {
   FrameEncoding encoding = FrameEncoding::kGray8;
   int width = 0;
@@ -25,7 +25,7 @@ struct SourceFrame {
   std::int64_t capture_time_ns = 0;
   // Frames before this one are missing: no flow spans the gap.
   bool gap_before = false;
-  // What is wrong with the file, naming it; empty: the frame can be used.
+  // Names the file and its fault; empty: the frame can be used.
   std::string fault = "";
 
   Frame view() const { return {encoding, width, height, data}; }
@@ -44,14 +44,14 @@ struct FrameKeys {
 class FrameSource {
  public:
   virtual ~FrameSource() = default;
-  // Nothing at the end. A frame with a fault counts; the next call goes on behind it.
+  // std::nullopt at the end. A frame with a fault counts; the next call continues behind it.
   virtual absl::StatusOr<std::optional<SourceFrame>> Next() = 0;
   // Number of frames, -1 if not known (live camera).
   virtual std::int64_t size() const { return -1; }
-  // As size(), or what a video's header says, which need not be true.
+  // The same as size(), or the number in a video's header, which need not be true.
   virtual std::int64_t promised_size() const { return size(); }
-  // Goes to frame `index` (at most size(); beyond the end of a video: its end); false: cannot (live
-  // camera).
+  // Seeks to frame `index` (at most size(); beyond the end of a video: its end); false: not
+  // possible (live camera).
   virtual bool Seek(std::int64_t index) = 0;
   // A camera or a pipe: it has no end, and what was read cannot be read again.
   virtual bool live() const { return false; }
@@ -60,13 +60,13 @@ class FrameSource {
   virtual double fps() const { return 0; }
   // What the user should know of what was left out; empty: nothing.
   virtual std::string remark() const { return ""; }
-  // Names where the frames come from, if two cameras must not share it; else empty.
+  // Names the source of the frames, if two cameras must not share it; else empty.
   virtual std::string name() const { return ""; }
-  // The camera as the source itself describes it; nothing if it does not.
+  // The camera as the source itself describes it; std::nullopt if it does not.
   virtual std::optional<Camera> camera() const { return std::nullopt; }
 };
 
-// Whether the text can name a source, without opening it. INVALID_ARGUMENT.
+// Checks that the text names a source, without opening it. INVALID_ARGUMENT.
 absl::Status CheckSourceText(const std::string& source);
 
 // SOURCE of the command line, for one camera (a simulated scene has two):

@@ -1,4 +1,4 @@
-// Recognises landmarks and localises on the way home. Source: own design.
+// Matches landmarks and localises on the way home.
 #ifndef CLIENT_HOMING_CLIENT_H_
 #define CLIENT_HOMING_CLIENT_H_
 
@@ -21,7 +21,7 @@ struct LocalizingOptions {
   v1::LocalizeConfig config;
   // Most observations sent and not yet answered. [1, 10000].
   int window = 32;
-  // Answered observations sent again after a broken link, so that the belief comes back. [1,
+  // Answered observations that are sent again after a broken link, to restore the belief. [1,
   // 10000].
   int replay = 64;
 };
@@ -29,14 +29,14 @@ struct LocalizingOptions {
 // Not thread-safe.
 class HomingClient {
  public:
-  // Each observation's answer once, in order, on another thread. An error stops.
+  // Called once for each observation's answer, in order, on another thread. An error stops.
   using OnAnswer = std::function<absl::Status(const v1::LocalizeResponse&)>;
 
   // REQUIRES: `connection` outlives the client.
   explicit HomingClient(
       const Connection* connection, Log log = [](auto&) {});
 
-  // To the end of `observations`. CANCELLED: stopped. Others as Localize.
+  // Runs to the end of `observations`. CANCELLED: stopped. Errors of Localize.
   absl::Status Localize(const LocalizingOptions& options, ObservationStream* observations,
                         const OnAnswer& on_answer, const std::stop_token& stop = {});
 
@@ -44,7 +44,7 @@ class HomingClient {
                                                    const std::stop_token& stop = {});
 
  private:
-  // One stream; a stream's numbers begin at 0, so those of a later one are shifted.
+  // One stream. Its numbers begin at 0: those of a later stream are shifted.
   absl::Status Attempt(const LocalizingOptions& options, ResendBuffer* buffer,
                        const OnAnswer& on_answer, const std::stop_token& stop, bool* progress);
 
@@ -53,7 +53,7 @@ class HomingClient {
   const Connection* connection_;
   Log log_;
   std::unique_ptr<v1::HomingService::StubInterface> stub_;
-  // Last sequence handed to on_answer.
+  // The last sequence given to on_answer.
   std::int64_t reported_ = -1;
   // Where the robot was at the last answers, by sequence: a new stream starts from the one before
   // the first observation that is sent again.

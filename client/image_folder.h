@@ -1,4 +1,4 @@
-// Frames from the image files of a folder or glob. Source: own design.
+// Frames from the image files of a folder or glob.
 #ifndef CLIENT_IMAGE_FOLDER_H_
 #define CLIENT_IMAGE_FOLDER_H_
 
@@ -11,17 +11,24 @@
 
 namespace homing::client {
 
-// Numbers inside names count as numbers: 2.png before 10.png.
-bool NaturalLess(const std::string& a, const std::string& b);
+struct ImageList {
+  std::vector<std::string> paths;
+  // Hidden files with an image's name, left out.
+  int hidden = 0;
+  // Image files of a kind that cannot be read, left out: .heic and the like.
+  int unreadable_kind = 0;
+};
 
-// Image files of a folder, or those that a glob names, in natural order. NOT_FOUND: none.
-absl::StatusOr<std::vector<std::string>> ListImages(const std::string& folder_or_glob);
+// The image files of a folder or of a glob, in the order of SortByName. NOT_FOUND: none.
+absl::StatusOr<ImageList> ListImages(const std::string& folder_or_glob);
 
-// One image file. JPEG and PNG as they are, other formats as GRAY8. NOT_FOUND, INVALID_ARGUMENT.
+// One image file. JPEG and PNG unchanged, other formats as GRAY8. The system's error, or
+// INVALID_ARGUMENT: the file is empty, or its first bytes are those of no image.
 absl::StatusOr<SourceFrame> ReadImage(const std::string& path);
 
-// The given files in the given order.
-std::unique_ptr<FrameSource> MakeImageFolder(std::vector<std::string> paths);
+// The given files in the given order. Files that cannot be decoded, and those of another size than
+// the first, are frames with a fault.
+std::unique_ptr<FrameSource> MakeImageFolder(ImageList images);
 
 }  // namespace homing::client
 

@@ -5,6 +5,7 @@
 #include "client/chunk_file.h"
 #include "client/rpc_status.h"
 #include "client/unary_call.h"
+#include "homing/base/field_error.h"
 #include "homing/base/status_macros.h"
 
 namespace homing::client {
@@ -20,8 +21,7 @@ absl::StatusOr<JourneyName> ParseJourneyName(const std::string& name) {
   const bool good = parts.size() == 4 && parts[0] == "robots" && !parts[1].empty() &&
                     parts[2] == "journeys" && !parts[3].empty();
   if (!good) {
-    return absl::InvalidArgumentError(
-        absl::StrCat("journey is \"", name, "\"; it must be robots/ROBOT/journeys/JOURNEY"));
+    return TextMustBe("journey", name, "robots/ROBOT/journeys/JOURNEY");
   }
   return JourneyName{absl::StrCat("robots/", parts[1]), parts[3]};
 }
@@ -57,16 +57,27 @@ absl::Status JourneyClient::Delete(const std::string& name) {
 }
 
 absl::StatusOr<v1::Journey> JourneyClient::Finish(const std::string& name,
-                                                  const std::string& writer_id) {
+                                                  const std::string& writer_id, bool force) {
   v1::FinishJourneyRequest request;
   request.set_name(name);
   request.set_writer_id(writer_id);
+  request.set_force(force);
   HOMING_ASSIGN_OR_RETURN(
       const auto response,
       CallUnary<v1::FinishJourneyResponse>(*connection_, stop_, [&](auto* context, auto* answer) {
         return stub_->FinishJourney(context, request, answer);
       }));
   return response.journey();
+}
+
+absl::StatusOr<v1::Journey> JourneyClient::SetReaders(const std::string& name,
+                                                      const std::vector<std::string>& readers) {
+  v1::SetReadersRequest request;
+  request.set_name(name);
+  for (const std::string& reader : readers) request.add_readers(reader);
+  return CallUnary<v1::Journey>(*connection_, stop_, [&](auto* context, auto* response) {
+    return stub_->SetReaders(context, request, response);
+  });
 }
 
 absl::Status JourneyClient::List(const std::string& parent,

@@ -1,4 +1,4 @@
-// The maps: create, look at, finish, delete, carry. Source: own design.
+// Manages journeys: create, list, finish, delete, export, import.
 #ifndef CLIENT_JOURNEY_CLIENT_H_
 #define CLIENT_JOURNEY_CLIENT_H_
 
@@ -8,6 +8,7 @@
 #include <ostream>
 #include <stop_token>
 #include <string>
+#include <vector>
 
 #include "absl/status/statusor.h"
 #include "client/connection.h"
@@ -15,17 +16,17 @@
 
 namespace homing::client {
 
-// "robots/R/journeys/J" as its two parts.
+// The two ids in "robots/R/journeys/J".
 struct JourneyName {
   // "robots/R".
   std::string parent;
   std::string journey_id;
 };
 
-// INVALID_ARGUMENT: not of that form. The ids themselves are the server's to judge.
+// INVALID_ARGUMENT: not of that form. The server checks the ids.
 absl::StatusOr<JourneyName> ParseJourneyName(const std::string& name);
 
-// Each call is repeated while it IsRetriable. Not thread-safe. Errors as the RPC of the same name.
+// Each call is retried while IsRetriable. Not thread-safe. Errors of the RPC of the same name.
 class JourneyClient {
  public:
   // REQUIRES: `connection` outlives the client.
@@ -34,7 +35,10 @@ class JourneyClient {
   absl::StatusOr<v1::Journey> Create(const v1::CreateJourneyRequest& request);
   absl::StatusOr<v1::Journey> Get(const std::string& name);
   absl::Status Delete(const std::string& name);
-  absl::StatusOr<v1::Journey> Finish(const std::string& name, const std::string& writer_id);
+  absl::StatusOr<v1::Journey> Finish(const std::string& name, const std::string& writer_id,
+                                     bool force = false);
+  absl::StatusOr<v1::Journey> SetReaders(const std::string& name,
+                                         const std::vector<std::string>& readers);
   // All pages. `parent` is "robots/R" or "robots/-".
   absl::Status List(const std::string& parent,
                     const std::function<absl::Status(const v1::Journey&)>& each);
@@ -42,7 +46,7 @@ class JourneyClient {
                              const std::function<absl::Status(const v1::Landmark&)>& each);
   absl::StatusOr<v1::AnalyzeAliasingResponse> AnalyzeAliasing(const std::string& journey,
                                                               int tolerance_steps);
-  // Not repeated: part of the file may be out already.
+  // Not retried: a part of the file may already be written.
   absl::Status Export(const std::string& name, std::ostream& file);
   absl::StatusOr<v1::Journey> Import(const std::string& name, std::istream& file);
 

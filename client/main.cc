@@ -1,4 +1,4 @@
-// The `homing` command: reads the command line, runs one command, gives its exit code.
+// The `homing` command: parses the command line, runs one command, returns its exit code.
 #include <CLI/CLI.hpp>
 
 #include "client/command/commands.h"

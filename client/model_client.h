@@ -1,4 +1,4 @@
-// Deviation models: train, look at. Source: own design.
+// Trains and lists deviation models.
 #ifndef CLIENT_MODEL_CLIENT_H_
 #define CLIENT_MODEL_CLIENT_H_
 
@@ -12,7 +12,7 @@
 
 namespace homing::client {
 
-// Each call is repeated while it IsRetriable. Errors as the RPC of the same name.
+// Each call is retried while IsRetriable. Errors of the RPC of the same name.
 class ModelClient {
  public:
   // REQUIRES: `connection` outlives the client.

@@ -1,4 +1,4 @@
-// What a client sends: numbered observations, as messages. Source: own design.
+// The numbered observations that a client sends, as messages.
 #ifndef CLIENT_OBSERVATION_STREAM_H_
 #define CLIENT_OBSERVATION_STREAM_H_
 
@@ -14,15 +14,16 @@ namespace homing::client {
 class ObservationStream {
  public:
   virtual ~ObservationStream() = default;
-  // Numbered from 0 without gaps. Nothing at the end.
+  // Numbered from 0 without gaps. std::nullopt at the end.
   virtual absl::StatusOr<std::optional<v1::Observation>> Next() = 0;
   // The frame that made the last step of the journey; -1: none, or not known. A stream of flow
-  // vectors goes on from it when Seek or ContinueAt is called next.
+  // vectors continues from it at the next Seek or ContinueAt.
   virtual void set_last_frame(std::int64_t) {}
-  // Makes `sequence` the next one, the same as the first time (beyond the end: nothing is next).
-  // False: cannot go back (live camera).
+  // Seeks: `sequence` comes next, identical to the first time (beyond the end: nothing). False: not
+  // possible (live camera).
   virtual bool Seek(std::int64_t sequence) = 0;
-  // What comes next is new: numbers it `sequence` and marks that a break is before it.
+  // Continues with new observations: the next one has the number `sequence` and is marked as a
+  // break.
   virtual void ContinueAt(std::int64_t sequence) = 0;
 };
 

@@ -1,4 +1,4 @@
-// Grey images as PNG files. Source: own design.
+// Grey images as PNG files.
 #ifndef CLIENT_PNG_FILE_H_
 #define CLIENT_PNG_FILE_H_
 
@@ -9,7 +9,8 @@
 
 namespace homing::client {
 
-// REQUIRES: a GRAY8 frame of its width and height. PERMISSION_DENIED: cannot write there; INTERNAL.
+// REQUIRES: a GRAY8 frame of its width and height. PERMISSION_DENIED: the file cannot be created;
+// INTERNAL: it cannot be written.
 absl::Status WritePng(const std::string& path, const SourceFrame& gray);
 
 }  // namespace homing::client

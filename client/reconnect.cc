@@ -11,15 +11,19 @@ namespace {
 
 using SteadyClock = std::chrono::steady_clock;
 
-// Attempts that the server may correct (OUT_OF_RANGE: another observation is due).
+// Attempts in a row without getting further: that the server may correct (OUT_OF_RANGE: another
+// observation is expected), and that a proxy may break off.
 constexpr int kMaxCorrections = 3;
 
+std::int64_t Seconds(std::chrono::milliseconds duration) {
+  return std::chrono::duration_cast<std::chrono::seconds>(duration).count();
+}
+
 absl::Status GiveUp(const Connection& connection, const absl::Status& last) {
-  const auto seconds =
-      std::chrono::duration_cast<std::chrono::seconds>(connection.options().retry_for);
-  return absl::Status(
-      last.code(), absl::StrCat("gave up after ", seconds.count(), " s without an answer from ",
-                                connection.options().address, ": ", std::string(last.message())));
+  return absl::Status(last.code(),
+                      absl::StrCat("gave up after ", Seconds(connection.options().retry_for),
+                                   " s without an answer from ", connection.options().address, ": ",
+                                   std::string(last.message())));
 }
 
 }  // namespace
@@ -28,6 +32,7 @@ absl::Status Reconnecting(const Connection& connection, const std::stop_token& s
                           const std::function<absl::Status(bool* progress)>& attempt) {
   Backoff backoff;
   int corrections = 0;
+  bool lost = false;
   auto last_progress = SteadyClock::now();
   while (true) {
     bool progress = false;
@@ -39,16 +44,23 @@ absl::Status Reconnecting(const Connection& connection, const std::stop_token& s
       backoff.Reset();
       corrections = 0;
     }
-    const bool correctable = absl::IsOutOfRange(status) && ++corrections <= kMaxCorrections;
+    const bool correctable =
+        (absl::IsOutOfRange(status) || IsReset(status)) && ++corrections <= kMaxCorrections;
     if (!correctable && !IsRetriable(status)) return status;
     if (SteadyClock::now() - last_progress >= connection.options().retry_for) {
       return GiveUp(connection, status);
     }
     const auto wait =
         std::max(backoff.Next(), RetryDelay(status).value_or(std::chrono::milliseconds(0)));
-    log(absl::StrCat("link lost (", std::string(status.message()), "), trying again in ",
-                     wait.count(), " ms"));
+    // Once an outage.
+    if (progress || !lost) {
+      log(absl::StrCat("link lost (", std::string(status.message()), "), trying again for ",
+                       Seconds(connection.options().retry_for), " s"));
+    }
+    lost = true;
     if (!SleepFor(wait, stop)) return absl::CancelledError("stopped");
+    connection.AwaitReady(stop);
+    if (stop.stop_requested()) return absl::CancelledError("stopped");
   }
 }
 

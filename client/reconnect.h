@@ -1,4 +1,4 @@
-// Tries a stream again after a broken link. Source: own design.
+// Retries a stream after a broken link.
 #ifndef CLIENT_RECONNECT_H_
 #define CLIENT_RECONNECT_H_
 
@@ -11,12 +11,12 @@
 
 namespace homing::client {
 
-// For people: what happens to the link.
+// Receives messages for the user about the link.
 using Log = std::function<void(const std::string&)>;
 
-// Runs `attempt` until it ends well or with an error that another attempt cannot cure. It reports
-// true through its argument once it got further than any attempt before. Gives up when the server
-// was away for `retry_for` (its last error), and after three OUT_OF_RANGE without getting further.
+// Runs `attempt` until it succeeds or returns an error that a retry cannot cure. It sets its
+// argument to true once it made more progress than all attempts before. Gives up with the last
+// error after `retry_for` without progress, and after three OUT_OF_RANGE without progress.
 // CANCELLED: stopped.
 absl::Status Reconnecting(const Connection& connection, const std::stop_token& stop, const Log& log,
                           const std::function<absl::Status(bool* progress)>& attempt);

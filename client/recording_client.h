@@ -1,4 +1,4 @@
-// Records a journey: durable, resumable, over any number of broken links. Source: own design.
+// Records a journey durably, and resumes after broken links.
 #ifndef CLIENT_RECORDING_CLIENT_H_
 #define CLIENT_RECORDING_CLIENT_H_
 
@@ -18,20 +18,20 @@
 namespace homing::client {
 
 struct RecordingOptions {
-  // "robots/{robot}/journeys/{journey}"; it exists.
+  // "robots/{robot}/journeys/{journey}", which must exist.
   std::string journey;
-  // Survives restarts of this program.
+  // The same after each restart of this program.
   std::string writer_id;
   // Most observations sent and not yet acknowledged. [1, 10000].
   int window = 256;
-  // Acknowledged observations kept for a resend besides the reference. [0, 10000].
+  // Acknowledged observations that are kept for resending, besides the reference. [0, 10000].
   int keep = 8;
 };
 
 struct RecordingSummary {
-  // First sequence that is not durable: all are.
+  // The first sequence that is not durable; all observations are durable.
   std::int64_t next_sequence = 0;
-  // Where this run began: what was durable before.
+  // The first sequence of this run; earlier ones were already durable.
   std::int64_t begun_at = 0;
   int reconnects = 0;
 };
@@ -39,16 +39,16 @@ struct RecordingSummary {
 // One recording. Not thread-safe.
 class RecordingClient {
  public:
-  // Each observation's answer at most once, in order, on another thread. An error stops the
-  // recording.
+  // Called at most once for each observation's answer, in order, on another thread. An error stops
+  // the recording.
   using OnAnswer = std::function<absl::Status(const v1::RecordJourneyResponse&)>;
 
   // REQUIRES: `connection` outlives the client.
   RecordingClient(
       const Connection* connection, RecordingOptions options, Log log = [](auto&) {});
 
-  // Sends `observations` from where the server says to the end; returns when all are durable.
-  // CANCELLED: stopped, what is durable stays. Others as RecordJourney.
+  // Sends `observations` from the sequence that the server names to the end; returns when all are
+  // durable. CANCELLED: stopped; durable observations stay. Errors of RecordJourney.
   absl::StatusOr<RecordingSummary> Record(ObservationStream* observations,
                                           const OnAnswer& on_answer,
                                           const std::stop_token& stop = {});
@@ -59,7 +59,7 @@ class RecordingClient {
 
   absl::Status Attempt(ResendBuffer* buffer, const OnAnswer& on_answer, const std::stop_token& stop,
                        bool* progress);
-  // Config out, first answer in, buffer rewound.
+  // Sends the config, reads the first answer and rewinds the buffer.
   absl::Status Begin(Stream* stream, ResendBuffer* buffer);
   absl::Status Answer(const v1::RecordJourneyResponse& response, ResendBuffer* buffer,
                       const OnAnswer& on_answer, bool* progress);
@@ -72,7 +72,7 @@ class RecordingClient {
   ObservationStream* observations_ = nullptr;
   RecordingSummary summary_;
   int attempts_ = 0;
-  // Last sequence handed to on_answer.
+  // The last sequence given to on_answer.
   std::int64_t reported_ = -1;
 };
 

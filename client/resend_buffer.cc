@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "absl/strings/str_cat.h"
+#include "homing/base/mutex.h"
 #include "homing/base/status_macros.h"
 
 namespace homing::client {
@@ -27,14 +28,14 @@ bool ResendBuffer::Has(std::int64_t sequence) const {
 
 absl::StatusOr<std::shared_ptr<const v1::Observation>> ResendBuffer::Next() {
   {
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     if (cursor_ < kept_.size()) return kept_[cursor_++];
   }
   // Only this thread moves the cursor forward, so the stream may be read without the lock.
   HOMING_ASSIGN_OR_RETURN(auto next, stream_->Next());
   if (!next) return std::shared_ptr<const v1::Observation>();
   auto observation = std::make_shared<const v1::Observation>(*std::move(next));
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   kept_.push_back(observation);
   cursor_ = kept_.size();
   next_ = observation->sequence() + 1;
@@ -56,19 +57,19 @@ void ResendBuffer::Drop(std::int64_t first, std::int64_t after, std::int64_t seq
 }
 
 void ResendBuffer::Acknowledge(std::int64_t sequence) {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   acknowledged_ = std::max(acknowledged_, sequence);
   Drop(acknowledged_ - keep_, acknowledged_, acknowledged_);
 }
 
 void ResendBuffer::Acknowledge(std::int64_t sequence, std::int64_t reference) {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   acknowledged_ = std::max(acknowledged_, sequence);
   Drop(reference - keep_, reference + 1, acknowledged_);
 }
 
 absl::Status ResendBuffer::Rewind(std::int64_t resend_from, std::int64_t durable) {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   const bool has_rest = Has(durable) || durable == end();
   if (has_rest && (Has(resend_from) || resend_from == end())) {
     cursor_ = IndexOf(resend_from);
@@ -100,7 +101,7 @@ absl::Status ResendBuffer::Rewind(std::int64_t resend_from, std::int64_t durable
 }
 
 std::int64_t ResendBuffer::RewindAll() {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   cursor_ = 0;
   return kept_.empty() ? next_ : kept_.front()->sequence();
 }

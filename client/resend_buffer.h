@@ -1,22 +1,22 @@
-// Observations sent and not yet acknowledged, and those before them that are needed again after a
-// broken link. Source: own design.
+// Keeps observations that were sent but not acknowledged, and those before them that are needed
+// again after a broken link.
 #ifndef CLIENT_RESEND_BUFFER_H_
 #define CLIENT_RESEND_BUFFER_H_
 
 #include <cstdint>
 #include <deque>
 #include <memory>
-#include <mutex>
 
 #include "absl/status/statusor.h"
 #include "client/observation_stream.h"
+#include "homing/base/mutex.h"
 
 namespace homing::client {
 
-// One thread sends (Next, Rewind), another acknowledges: thread-safe.
+// Thread-safe for one sending thread (Next, Rewind) and one acknowledging thread.
 class ResendBuffer {
  public:
-  // Keeps `keep` more observations that are acknowledged already. `stream` must outlive the buffer.
+  // Keeps `keep` acknowledged observations. `stream` must outlive the buffer.
   ResendBuffer(ObservationStream* stream, int keep);
 
   // The next observation to send, from the buffer or the stream; null at the end.
@@ -28,35 +28,36 @@ class ResendBuffer {
   // before that.
   void Acknowledge(std::int64_t sequence, std::int64_t reference);
 
-  // The server has all before `durable`: sends `resend_from` <= `durable` again and then all that
-  // is kept from there on, or goes back by Seek. A stream that cannot go back goes on at `durable`
-  // at the latest, with a break. DATA_LOSS: what is due is neither kept nor can it be had again.
+  // The server has all observations before `durable`. Sends `resend_from` <= `durable` again and
+  // then all kept observations from `durable` on, or seeks. A stream that cannot seek continues at
+  // `durable` at the latest, with a break. DATA_LOSS: the expected observation is neither kept nor
+  // available from the stream.
   absl::Status Rewind(std::int64_t resend_from, std::int64_t durable);
 
-  // Sends again all that is kept. The sequence it begins with.
+  // Sends all kept observations again. Returns the first sequence.
   std::int64_t RewindAll();
 
  private:
   using Kept = std::deque<std::shared_ptr<const v1::Observation>>;
 
-  // Sequence after the last one kept.
-  std::int64_t end() const;
-  // The first kept of at least `sequence`.
-  std::size_t IndexOf(std::int64_t sequence) const;
-  bool Has(std::int64_t sequence) const;
-  // Those before `first`, and those from `after` to before `sequence`.
-  void Drop(std::int64_t first, std::int64_t after, std::int64_t sequence);
+  // The sequence after the last one kept.
+  std::int64_t end() const HOMING_REQUIRES(mutex_);
+  // Index in kept_ of the first one of at least `sequence`.
+  std::size_t IndexOf(std::int64_t sequence) const HOMING_REQUIRES(mutex_);
+  bool Has(std::int64_t sequence) const HOMING_REQUIRES(mutex_);
+  // Drops the ones before `first`, and the ones from `after` to before `sequence`.
+  void Drop(std::int64_t first, std::int64_t after, std::int64_t sequence) HOMING_REQUIRES(mutex_);
 
-  std::mutex mutex_;
+  Mutex mutex_;
   ObservationStream* stream_;
   int keep_;
   // In order of sequence. Only acknowledged ones are missing between two.
-  Kept kept_;
-  // Index in kept_ of what Next gives next; all kept before it were sent.
-  std::size_t cursor_ = 0;
-  // Sequence that the stream gives next.
-  std::int64_t next_ = 0;
-  std::int64_t acknowledged_ = 0;
+  Kept kept_ HOMING_GUARDED_BY(mutex_);
+  // Index in kept_ of the next result of Next; all kept before it were sent.
+  std::size_t cursor_ HOMING_GUARDED_BY(mutex_) = 0;
+  // The sequence that the stream gives next.
+  std::int64_t next_ HOMING_GUARDED_BY(mutex_) = 0;
+  std::int64_t acknowledged_ HOMING_GUARDED_BY(mutex_) = 0;
 };
 
 }  // namespace homing::client

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "absl/strings/cord.h"
+#include "absl/strings/match.h"
 #include "absl/strings/numbers.h"
 #include "absl/strings/str_cat.h"
 #include "google/rpc/error_details.pb.h"
@@ -12,6 +13,7 @@
 namespace homing::client {
 namespace {
 
+constexpr char kFromServerUrl[] = "homing.client/from-server";
 constexpr char kRetryDelayUrl[] = "homing.client/retry-delay-ms";
 
 // `details` is a google.rpc.Status (trailer grpc-status-details-bin).
@@ -35,6 +37,7 @@ absl::Status FromGrpc(const grpc::Status& status) {
   absl::Status result(static_cast<absl::StatusCode>(status.error_code()), status.error_message());
   auto delay = FindRetryInfo(status.error_details());
   if (!delay && absl::IsCancelled(result)) delay = std::chrono::milliseconds(0);
+  result.SetPayload(kFromServerUrl, absl::Cord());
   if (delay) {
     result.SetPayload(kRetryDelayUrl, absl::Cord(absl::StrCat(delay->count())));
   }
@@ -46,6 +49,16 @@ std::optional<std::chrono::milliseconds> RetryDelay(const absl::Status& status) 
   std::int64_t milliseconds = 0;
   if (!payload || !absl::SimpleAtoi(std::string(*payload), &milliseconds)) return std::nullopt;
   return std::chrono::milliseconds(milliseconds);
+}
+
+bool IsFromServer(const absl::Status& status) {
+  return status.GetPayload(kFromServerUrl).has_value();
+}
+
+bool IsReset(const absl::Status& status) {
+  const bool code = absl::IsInternal(status) || absl::IsUnknown(status);
+  return code && (absl::StrContains(status.message(), "RST_STREAM") ||
+                  absl::StrContains(status.message(), "http2 header with status: "));
 }
 
 bool IsRetriable(const absl::Status& status) {

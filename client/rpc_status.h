@@ -1,4 +1,4 @@
-// gRPC's status to absl's, with the server's advice on when to try again. Source: own design.
+// Converts gRPC's status to absl's, with the server's retry delay.
 #ifndef CLIENT_RPC_STATUS_H_
 #define CLIENT_RPC_STATUS_H_
 
@@ -11,16 +11,21 @@
 
 namespace homing::client {
 
-// Same code and message; keeps the delay of google.rpc.RetryInfo for RetryDelay. CANCELLED, by
-// which a server that shuts down ends calls, has a delay of 0: who cancels a call of its own does
-// not ask.
+// Same code and message; keeps the delay of google.rpc.RetryInfo for RetryDelay. CANCELLED gets a
+// delay of 0: a server that shuts down ends calls with it, and a client that cancelled its own call
+// does not retry.
 absl::Status FromGrpc(const grpc::Status& status);
 
-// The delay that the server named, if it did.
+// The delay that the server named, if any.
 std::optional<std::chrono::milliseconds> RetryDelay(const absl::Status& status);
 
-// Whether the same call may succeed later: UNAVAILABLE, and RESOURCE_EXHAUSTED or CANCELLED with a
-// delay.
+// The server, or the way to it, reported `status`, and not this machine: FromGrpc made it.
+bool IsFromServer(const absl::Status& status);
+
+// Something between client and server, as a proxy, broke the stream off.
+bool IsReset(const absl::Status& status);
+
+// The same call may succeed later: UNAVAILABLE, or RESOURCE_EXHAUSTED or CANCELLED with a delay.
 bool IsRetriable(const absl::Status& status);
 
 }  // namespace homing::client

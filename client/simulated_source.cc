@@ -9,9 +9,9 @@ namespace {
 
 class SimulatedSource : public FrameSource {
  public:
-  // `has_times`: frames have their times, by which a frame without its partner is known.
-  SimulatedSource(std::unique_ptr<Simulator> simulator, Side camera, bool has_times)
-      : simulator_(std::move(simulator)), camera_(camera), has_times_(has_times) {}
+  // `has_times`: frames have their times, which show a frame without its partner.
+  SimulatedSource(std::unique_ptr<Simulator> simulator, Side camera, double fps, bool has_times)
+      : simulator_(std::move(simulator)), camera_(camera), fps_(fps), has_times_(has_times) {}
 
   absl::StatusOr<std::optional<SourceFrame>> Next() override {
     cv::Mat image;
@@ -19,13 +19,14 @@ class SimulatedSource : public FrameSource {
       if (next_ >= size()) return std::optional<SourceFrame>();
       image = simulator_->RenderCamera(next_++, camera_);
     }
-    SourceFrame frame{FrameEncoding::kGray8, image.cols, image.rows, {}, 0};
+    SourceFrame frame{FrameEncoding::kGray8, image.cols, image.rows, {}};
     frame.data.assign(reinterpret_cast<const char*>(image.data), image.total());
     // 0 would be no time.
     if (has_times_) frame.capture_time_ns = 1 + std::llround(1e9 * simulator_->TimeS(next_ - 1));
     return std::make_optional(std::move(frame));
   }
   std::int64_t size() const override { return simulator_->frame_count(); }
+  double fps() const override { return fps_; }
   bool Seek(std::int64_t index) override {
     if (index < 0 || index > size()) return false;
     next_ = index;
@@ -35,6 +36,7 @@ class SimulatedSource : public FrameSource {
  private:
   std::unique_ptr<Simulator> simulator_;
   Side camera_;
+  double fps_;
   bool has_times_;
   std::int64_t next_ = 0;
 };
@@ -44,7 +46,8 @@ class SimulatedSource : public FrameSource {
 absl::StatusOr<std::unique_ptr<FrameSource>> MakeSimulatedSource(const SimulationSpec& spec,
                                                                  Side camera) {
   HOMING_ASSIGN_OR_RETURN(auto simulator, Simulator::Create(spec));
-  return std::make_unique<SimulatedSource>(std::move(simulator), camera, spec.drop_run > 0);
+  return std::make_unique<SimulatedSource>(std::move(simulator), camera, spec.fps,
+                                           spec.drop_run > 0);
 }
 
 }  // namespace homing::client

@@ -1,4 +1,4 @@
-// Frames of the simulated robot. Source: own design.
+// Frames of the simulated robot.
 #ifndef CLIENT_SIMULATED_SOURCE_H_
 #define CLIENT_SIMULATED_SOURCE_H_
 

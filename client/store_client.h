@@ -1,4 +1,4 @@
-// The server's store as a whole. Source: own design.
+// Copies the server's store.
 #ifndef CLIENT_STORE_CLIENT_H_
 #define CLIENT_STORE_CLIENT_H_
 

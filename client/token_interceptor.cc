@@ -27,7 +27,7 @@ class TokenFactory final : public ge::ClientInterceptorFactoryInterface {
  public:
   explicit TokenFactory(const std::string& token) : header_("Bearer " + token) {}
 
-  // gRPC owns what is returned.
+  // gRPC takes ownership of the result.
   ge::Interceptor* CreateClientInterceptor(ge::ClientRpcInfo* /*info*/) override {
     return std::make_unique<TokenInterceptor>(header_).release();
   }

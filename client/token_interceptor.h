@@ -1,4 +1,4 @@
-// Sends a bearer token with every call of a channel. Source: own design.
+// Sends a bearer token with every call of a channel.
 #ifndef CLIENT_TOKEN_INTERCEPTOR_H_
 #define CLIENT_TOKEN_INTERCEPTOR_H_
 
@@ -10,8 +10,8 @@
 
 namespace homing::client {
 
-// For CreateCustomChannelWithInterceptors. Over plain text too, where gRPC's own call credentials
-// refuse to go: whether that is allowed is the caller's to decide.
+// For CreateCustomChannelWithInterceptors. Works over plain text too, which gRPC's call credentials
+// refuse; the caller decides whether that is allowed.
 std::vector<std::unique_ptr<grpc::experimental::ClientInterceptorFactoryInterface>> SendToken(
     const std::string& token);
 

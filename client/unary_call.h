@@ -1,4 +1,4 @@
-// One request, one response, repeated while the server is away. Source: own design.
+// One request and one response, retried while the server is not available.
 #ifndef CLIENT_UNARY_CALL_H_
 #define CLIENT_UNARY_CALL_H_
 

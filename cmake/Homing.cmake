@@ -26,7 +26,7 @@ macro(homing_compile_fast_under_sanitizers)
   endif()
 endmacro()
 
-# What programs allocate with: see docs/decisions/0032. Sanitizers bring their own.
+# What programs allocate with: see docs/decisions/0030. Sanitizers bring their own.
 add_library(homing_allocator INTERFACE)
 if(NOT HOMING_SANITIZE)
   find_library(JEMALLOC_LIBRARY jemalloc REQUIRED)

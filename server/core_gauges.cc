@@ -2,11 +2,15 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <vector>
 
-#include "absl/strings/strip.h"
+#include "server/config/option_table.h"
+#include "server/tls_credentials.h"
+#include "storage/database_url.h"
 
 namespace homing::server {
 namespace {
@@ -37,31 +41,19 @@ double OpenFiles() {
   return count;
 }
 
-void SetLimits(const ServerOptions& options, Metrics* metrics) {
-  const Limits& limits = options.limits;
-  const auto set = [metrics](const char* name, auto value) {
-    metrics->SetLimit(name, static_cast<double>(value));
-  };
-  set("max-message", options.max_message);
-  set("max-pixels", options.max_pixels);
-  set("max-vectors", options.max_vectors);
-  set("max-streams", limits.max_streams);
-  set("max-robot-streams", limits.max_robot_streams);
-  set("max-robot-rate", limits.max_robot_rate);
-  set("max-robot-journeys", limits.max_robot_journeys);
-  set("max-robot-bytes", limits.max_robot_bytes);
-  set("max-database", limits.max_database);
-  set("memory-quota", limits.memory_quota);
-  set("idle-stream-s", limits.idle_stream_s);
-  set("keepalive-s", limits.keepalive_s);
-  set("delete-after-s", limits.delete_after_s);
+double FirstEnd(const CertificateFiles& files) {
+  const std::vector<CertificateExpiry> expiries = ReadExpiries(files);
+  const auto first = std::min_element(
+      expiries.begin(), expiries.end(),
+      [](const CertificateExpiry& a, const CertificateExpiry& b) { return a.end_s < b.end_s; });
+  return first == expiries.end() ? 0 : static_cast<double>(first->end_s);
 }
 
 }  // namespace
 
 void AddCoreGauges(const ServerOptions& options, ServiceCore* core) {
   Metrics* const metrics = core->metrics.get();
-  const std::string path(absl::StripPrefix(options.database, "sqlite:"));
+  const std::string path = storage::ParseDatabaseUrl(options.database).value_or("");
   metrics->AddGauge("homing_ingest_queue_depth", "Observations that wait for their transaction",
                     [core] { return static_cast<double>(core->queue.waiting()); });
   metrics->AddGauge("homing_worker_queue_depth", "Tasks that wait for a worker",
@@ -76,7 +68,14 @@ void AddCoreGauges(const ServerOptions& options, ServiceCore* core) {
                     [path] { return SizeOf(path) + SizeOf(path + "-wal"); });
   metrics->AddGauge("process_resident_memory_bytes", "Resident memory", ResidentBytes);
   metrics->AddGauge("process_open_fds", "Open file descriptors", OpenFiles);
-  SetLimits(options, metrics);
+  if (!options.tls_cert.empty()) {
+    metrics->AddGauge("homing_certificate_end_timestamp_seconds",
+                      "When the first certificate or revocation list in use ends, Unix time",
+                      [files = CertificateFilesOf(options)] { return FirstEnd(files); });
+  }
+  ForEachLimit(options, [metrics](const std::string& name, double value) {
+    metrics->SetLimit(name, value);
+  });
 }
 
 }  // namespace homing::server

@@ -1,4 +1,4 @@
-// What is read off the running server at each scrape. Source: own design.
+// Gauges whose values are read from the running server at each scrape.
 #ifndef SERVER_CORE_GAUGES_H_
 #define SERVER_CORE_GAUGES_H_
 
@@ -7,7 +7,7 @@
 
 namespace homing::server {
 
-// Until core->metrics->RemoveGauges().
+// They stay until core->metrics->RemoveGauges().
 void AddCoreGauges(const ServerOptions& options, ServiceCore* core);
 
 }  // namespace homing::server

@@ -28,8 +28,13 @@
 namespace homing::server {
 namespace {
 
-// Clients may ping as often as this.
+// The shortest interval at which clients may ping.
 constexpr int kMinPingIntervalMs = 5'000;
+// Above --max-streams as a rule, since a stream over that is refused with a reason, while one over
+// this waits.
+constexpr int kMaxConnectionStreams = 16'384;
+// A token and what proxies add take a few hundred.
+constexpr int kMaxHeaderBytes = 8'192;
 
 // The library adds its plugin to every server of a process that links it.
 class WithoutReflection : public grpc::ServerBuilderOption {
@@ -60,12 +65,15 @@ void Configure(const ServerOptions& options, grpc::ServerBuilder* builder) {
   builder->SetMaxReceiveMessageSize(static_cast<int>(options.max_message));
   // A second server on the same port must fail, not share it silently.
   builder->AddChannelArgument(GRPC_ARG_ALLOW_REUSEPORT, 0);
-  // Robots behind radio links: a dead one is found soon.
+  // Finds dead radio links soon.
   builder->AddChannelArgument(GRPC_ARG_KEEPALIVE_TIME_MS, options.limits.keepalive_s * 1000);
   builder->AddChannelArgument(GRPC_ARG_KEEPALIVE_TIMEOUT_MS, options.limits.keepalive_s * 500);
   builder->AddChannelArgument(GRPC_ARG_HTTP2_MIN_RECV_PING_INTERVAL_WITHOUT_DATA_MS,
                               kMinPingIntervalMs);
   builder->AddChannelArgument(GRPC_ARG_KEEPALIVE_PERMIT_WITHOUT_CALLS, 1);
+  // What one connection may open and send is announced to it.
+  builder->AddChannelArgument(GRPC_ARG_MAX_CONCURRENT_STREAMS, kMaxConnectionStreams);
+  builder->AddChannelArgument(GRPC_ARG_MAX_METADATA_SIZE, kMaxHeaderBytes);
   if (options.limits.memory_quota > 0) {
     grpc::ResourceQuota quota("homing");
     quota.Resize(static_cast<std::size_t>(options.limits.memory_quota));
@@ -90,14 +98,14 @@ struct HomingServer::State {
   absl::Status Listen(const ServerOptions& options);
   absl::Status ServeMetrics(const ServerOptions& options);
 
-  // Outlived by nothing but the handlers' last steps: reset when drained.
+  // Reset once drained.
   std::unique_ptr<ServiceCore> core;
   JourneyServiceHandler journeys;
   HomingServiceHandler homing;
   DeviationModelServiceHandler models;
   StoreServiceHandler whole;
   std::unique_ptr<grpc::Server> server;
-  // Ends before the server whose health it sets.
+  // Must end before `server`, whose health it sets.
   std::unique_ptr<StoreWatch> watch;
   std::unique_ptr<MetricsEndpoint> metrics;
   std::unique_ptr<Housekeeping> housekeeping;
@@ -120,9 +128,9 @@ absl::Status HomingServer::State::Listen(const ServerOptions& options) {
   server = builder.BuildAndStart();
   const bool is_socket_file = options.listen.rfind("unix:", 0) == 0;
   if (server == nullptr || (port <= 0 && !is_socket_file)) {
-    return absl::UnavailableError(
-        absl::StrCat("listen is \"", options.listen,
-                     "\"; the address is in use, is not this machine's, or the TLS files are bad"));
+    return absl::UnavailableError(absl::StrCat(
+        "listen: \"", options.listen,
+        "\" is in use or is not an address of this machine, or the TLS files are bad"));
   }
   address = is_socket_file
                 ? options.listen
@@ -180,9 +188,15 @@ absl::StatusOr<std::unique_ptr<HomingServer>> HomingServer::Start(
   AddCoreGauges(options, state->core.get());
   HOMING_RETURN_IF_ERROR(state->ServeMetrics(options));
   HOMING_RETURN_IF_ERROR(state->Listen(options));
-  state->housekeeping =
-      std::make_unique<Housekeeping>(state->core.get(), std::chrono::seconds(options.reload_s));
+  state->housekeeping = std::make_unique<Housekeeping>(
+      state->core.get(), std::chrono::seconds(options.reload_s), CertificateFilesOf(options));
   return std::unique_ptr<HomingServer>(new HomingServer(std::move(state)));
+}
+
+void HomingServer::Reload() {
+  if (state_->housekeeping) {
+    state_->housekeeping->Reload();
+  }
 }
 
 void HomingServer::Drain() {

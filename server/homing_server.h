@@ -1,4 +1,4 @@
-// The server: opens the store, listens, serves, drains. Source: own design.
+// The server: opens the store, listens, serves, drains.
 #ifndef SERVER_HOMING_SERVER_H_
 #define SERVER_HOMING_SERVER_H_
 
@@ -14,8 +14,8 @@ namespace homing::server {
 
 class HomingServer {
  public:
-  // `clock` is steady time, for leases; by default the machine's. INVALID_ARGUMENT (options);
-  // UNAVAILABLE (address in use, store busy); as OpenJourneyStore.
+  // `clock` is the steady time for leases; default: the machine's. INVALID_ARGUMENT (options);
+  // UNAVAILABLE (address in use, store busy); errors of OpenJourneyStore.
   static absl::StatusOr<std::unique_ptr<HomingServer>> Start(
       const ServerOptions& options, std::function<TimePoint()> clock = nullptr);
   // Drains.
@@ -23,13 +23,15 @@ class HomingServer {
 
   // "host:port", with the port that was picked.
   const std::string& address() const;
-  // "host:port" of GET /metrics; empty: there is none.
+  // "host:port" of GET /metrics; empty without it.
   std::string metrics_address() const;
-  // What GET /metrics answers; empty once drained.
+  // The answer of GET /metrics; empty once drained.
   std::string MetricsText() const;
-  // Health says NOT_SERVING, streams end with UNAVAILABLE, what waits for the disk is written, the
-  // store is closed. Idempotent.
+  // Sets health to NOT_SERVING, ends streams with UNAVAILABLE, commits pending appends and closes
+  // the store. Idempotent.
   void Drain();
+  // Reads certificates, tokens and roles again at once.
+  void Reload();
 
  private:
   struct State;

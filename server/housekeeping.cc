@@ -4,24 +4,31 @@
 
 #include <string>
 
+#include "homing/base/mutex.h"
+
 namespace homing::server {
 namespace {
 
 constexpr std::chrono::seconds kRound{1};
 // Journeys live for days.
 constexpr std::chrono::seconds kDeleteEvery{60};
+constexpr std::chrono::seconds kWarnEvery{86'400};
 
 }  // namespace
 
-Housekeeping::Housekeeping(ServiceCore* core, std::chrono::seconds reload_every)
-    : core_(core), reload_every_(reload_every), thread_([this] { Run(); }) {}
+Housekeeping::Housekeeping(ServiceCore* core, std::chrono::seconds reload_every,
+                           const CertificateFiles& certificates)
+    : core_(core),
+      reload_every_(reload_every),
+      certificates_(certificates),
+      thread_([this] { Run(); }) {}
 
 Housekeeping::~Housekeeping() {
   {
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     stopping_ = true;
   }
-  stop_.notify_all();
+  stop_.NotifyAll();
   thread_.join();
 }
 
@@ -34,8 +41,14 @@ void Housekeeping::Run() {
     if (round % kDeleteEvery.count() == 0) {
       DeleteExpired();
     }
-    std::unique_lock lock(mutex_);
-    if (stop_.wait_for(lock, kRound, [this] { return stopping_; })) {
+    if (round % kWarnEvery.count() == 0) {
+      WarnOfExpiry();
+    }
+    const auto next = std::chrono::steady_clock::now() + kRound;
+    const MutexLock lock(mutex_);
+    while (!stopping_ && stop_.WaitUntil(mutex_, next)) {
+    }
+    if (stopping_) {
       return;
     }
   }
@@ -43,12 +56,24 @@ void Housekeeping::Run() {
 
 void Housekeeping::Reload() {
   if (const absl::Status status = core_->access->Reload(); !status.ok()) {
-    spdlog::error("what was read before stays in force: {}", std::string(status.message()));
+    spdlog::error("reload failed, keeping the previous configuration: {}",
+                  std::string(status.message()));
+  }
+}
+
+void Housekeeping::WarnOfExpiry() {
+  for (const CertificateExpiry& expiry : ReadExpiries(certificates_)) {
+    const std::string warning = ExpiryWarning(expiry, WallClockNs() / 1'000'000'000);
+    if (!warning.empty()) {
+      spdlog::warn("{}", warning);
+    }
   }
 }
 
 void Housekeeping::DeleteExpired() {
-  const auto deleted = core_->quota.DeleteExpired(WallClockNs());
+  const std::int64_t now_ns = WallClockNs();
+  const std::int64_t trusted_ns = clock_.TrustedSince(now_ns, std::chrono::steady_clock::now());
+  const auto deleted = core_->quota.DeleteExpired(now_ns, trusted_ns);
   if (!deleted.ok()) {
     spdlog::error("delete-after-s: {}", std::string(deleted.status().message()));
   } else if (*deleted > 0) {

@@ -1,36 +1,44 @@
-// What is done now and then beside the calls: files read again, idle streams closed, journeys past
-// their time deleted. Source: own design.
+// Periodic work beside the calls: reloads files, closes idle streams, deletes expired journeys, and
+// warns of certificates that end soon.
 #ifndef SERVER_HOUSEKEEPING_H_
 #define SERVER_HOUSEKEEPING_H_
 
 #include <chrono>
-#include <condition_variable>
-#include <mutex>
 #include <thread>
 
+#include "homing/base/mutex.h"
+#include "server/access/certificate_expiry.h"
+#include "server/clock_watch.h"
 #include "server/rpc/service_core.h"
 
 namespace homing::server {
 
-// One thread. Stops at its end, at the latest after the round under way.
+// One thread; the destructor waits for the current round.
 class Housekeeping {
  public:
   // `core` must outlive it.
-  Housekeeping(ServiceCore* core, std::chrono::seconds reload_every);
+  Housekeeping(ServiceCore* core, std::chrono::seconds reload_every,
+               const CertificateFiles& certificates);
   ~Housekeeping();
+  // Reads certificates, tokens and roles again. Thread-safe.
+  void Reload();
   Housekeeping(const Housekeeping&) = delete;
   Housekeeping& operator=(const Housekeeping&) = delete;
 
  private:
   void Run();
-  void Reload();
   void DeleteExpired();
+  void WarnOfExpiry();
+
+  // Used by the thread alone.
+  ClockWatch clock_;
 
   ServiceCore* const core_;
   const std::chrono::seconds reload_every_;
-  std::mutex mutex_;
-  std::condition_variable stop_;
-  bool stopping_ = false;
+  const CertificateFiles certificates_;
+  Mutex mutex_;
+  ConditionVariable stop_;
+  bool stopping_ HOMING_GUARDED_BY(mutex_) = false;
   std::thread thread_;
 };
 

@@ -10,14 +10,17 @@
 
 #include "server/config/access_commands.h"
 #include "server/config/health_check.h"
+#include "server/config/option_table.h"
 #include "server/config/server_options.h"
 #include "server/config/store_commands.h"
 #include "server/homing_server.h"
 #include "server/process/lock_checks.h"
 #include "server/process/open_files.h"
+#include "server/rpc/library_log.h"
 
-// Read by jemalloc. One arena: what one of the few threads allocates another frees. What is free
-// goes back soon: after a burst of a thousand robots it was as much as all that they use.
+// Read by jemalloc. One arena, because one of the few threads often frees what another allocated.
+// Free memory returns to the system soon: after a burst of a thousand robots it was as large as the
+// memory in use.
 extern "C" const char* malloc_conf;
 const char* malloc_conf = "narenas:1,dirty_decay_ms:1000";
 
@@ -26,7 +29,7 @@ namespace {
 using homing::server::HomingServer;
 using homing::server::ServerCommand;
 
-int Tell(const absl::Status& status) {
+int Report(const absl::Status& status) {
   if (status.ok()) {
     return 0;
   }
@@ -34,12 +37,13 @@ int Tell(const absl::Status& status) {
   return 1;
 }
 
-// Blocked in every thread that comes later, so that only Serve sees them.
+// Blocked in this thread and all later ones, so that only Serve receives them.
 sigset_t BlockStopSignals() {
   sigset_t signals;
   sigemptyset(&signals);
   sigaddset(&signals, SIGTERM);
   sigaddset(&signals, SIGINT);
+  sigaddset(&signals, SIGHUP);
   pthread_sigmask(SIG_BLOCK, &signals, nullptr);
   return signals;
 }
@@ -47,18 +51,22 @@ sigset_t BlockStopSignals() {
 int Serve(const homing::server::ServerOptions& options) {
   const sigset_t signals = BlockStopSignals();
   homing::RaiseOpenFileLimit();
+  homing::server::LimitLogOfLibraries();
   const auto server = HomingServer::Start(options);
   if (!server.ok()) {
-    return Tell(server.status());
+    return Report(server.status());
   }
-  // One write: who reads only the first line may close the pipe.
+  // One write: a reader of the first line may close the pipe.
   std::string lines = "listening on " + (*server)->address() + "\n";
   if (!(*server)->metrics_address().empty()) {
     lines += "metrics on http://" + (*server)->metrics_address() + "/metrics\n";
   }
   std::cout << lines << std::flush;
   int signal = 0;
-  sigwait(&signals, &signal);
+  while (sigwait(&signals, &signal) == 0 && signal == SIGHUP) {
+    spdlog::info("SIGHUP: reading certificates, tokens and roles again");
+    (*server)->Reload();
+  }
   spdlog::info("signal {}: draining", signal);
   (*server)->Drain();
   spdlog::info("stopped");
@@ -75,14 +83,15 @@ int main(int argc, char** argv) {
     case ServerCommand::Action::kExit:
       return command.exit_code;
     case ServerCommand::Action::kHealthCheck:
-      return Tell(homing::server::CheckHealth(command.health_server, command.health_ca,
-                                              command.health_cert, command.health_key));
+      return Report(homing::server::CheckHealth(
+          command.health_server,
+          {command.health_ca, command.health_trusted, command.health_cert, command.health_key}));
     case ServerCommand::Action::kCerts:
-      return Tell(homing::server::RunCerts(command.certificates));
+      return Report(homing::server::RunCerts(command.certificates));
     case ServerCommand::Action::kToken:
-      return Tell(homing::server::RunToken(command.token, command.options.tokens));
+      return Report(homing::server::RunToken(command.token, command.options.tokens));
     case ServerCommand::Action::kCheckConfig: {
-      const int result = Tell(homing::server::Validate(command.options));
+      const int result = Report(homing::server::Validate(command.options));
       std::cout << (result == 0 ? homing::server::ToToml(command.options) : "");
       return result;
     }

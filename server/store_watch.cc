@@ -5,10 +5,12 @@
 #include <string>
 #include <utility>
 
+#include "homing/base/mutex.h"
+
 namespace homing::server {
 namespace {
 
-// Between two looks at what the last write met, and between two writes that try.
+// Interval between two looks at the last write's result, and between two test writes.
 constexpr std::chrono::milliseconds kLook{200};
 constexpr std::chrono::milliseconds kTry{1000};
 
@@ -21,10 +23,10 @@ StoreWatch::StoreWatch(storage::JourneyStore* store, OnChange on_change)
 
 StoreWatch::~StoreWatch() {
   {
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     stopping_ = true;
   }
-  stopped_.notify_one();
+  stopped_.NotifyOne();
   thread_.join();
 }
 
@@ -35,17 +37,20 @@ void StoreWatch::Run() {
     if (status.ok() == well) continue;
     well = status.ok();
     if (well) {
-      spdlog::info("the store takes writes again");
+      spdlog::info("the store accepts writes again");
     } else {
-      spdlog::error("not serving, the store takes no writes: {}", std::string(status.message()));
+      spdlog::error("not serving: the store accepts no writes: {}", std::string(status.message()));
     }
     on_change_(well);
   }
 }
 
 bool StoreWatch::Sleep(std::chrono::milliseconds time) {
-  std::unique_lock lock(mutex_);
-  return !stopped_.wait_for(lock, time, [this] { return stopping_; });
+  const auto end = std::chrono::steady_clock::now() + time;
+  const MutexLock lock(mutex_);
+  while (!stopping_ && stopped_.WaitUntil(mutex_, end)) {
+  }
+  return !stopping_;
 }
 
 }  // namespace homing::server

@@ -1,26 +1,25 @@
-// Watches whether the store takes writes, so that health can say so. Source: own design.
+// Watches whether the store accepts writes, and reports it to the health service.
 #ifndef SERVER_STORE_WATCH_H_
 #define SERVER_STORE_WATCH_H_
 
-#include <condition_variable>
 #include <functional>
-#include <mutex>
 #include <thread>
 
+#include "homing/base/mutex.h"
 #include "storage/journey_store.h"
 
 namespace homing::server {
 
-// While writes fail, tries one a second: the server comes back by itself when there is room again,
-// though no robot calls a server that is not serving.
+// While writes fail, it tries one each second: robots do not call a server that is not serving, so
+// nothing else would show that writes work again.
 class StoreWatch {
  public:
-  // Called on a thread of the watch when it changes; true: writes work.
+  // Called on the watch's thread after a change; true: writes work.
   using OnChange = std::function<void(bool)>;
 
-  // `store` must outlive the watch. Writes are taken to work at first.
+  // `store` must outlive the watch. The initial state is: writes work.
   StoreWatch(storage::JourneyStore* store, OnChange on_change);
-  // No call comes after it.
+  // No call follows the destructor.
   ~StoreWatch();
 
  private:
@@ -30,9 +29,9 @@ class StoreWatch {
 
   storage::JourneyStore* const store_;
   const OnChange on_change_;
-  std::mutex mutex_;
-  std::condition_variable stopped_;
-  bool stopping_ = false;
+  Mutex mutex_;
+  ConditionVariable stopped_;
+  bool stopping_ HOMING_GUARDED_BY(mutex_) = false;
   std::thread thread_;
 };
 

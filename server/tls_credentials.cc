@@ -18,7 +18,7 @@ namespace tls = grpc::experimental;
 
 std::string StringOf(const grpc::string_ref& text) { return std::string(text.data(), text.size()); }
 
-// OpenSSL has verified chain and dates by then; what this adds is revocation.
+// OpenSSL has already checked chain and dates; this adds revocation.
 class ClientVerifier : public tls::ExternalCertificateVerifier {
  public:
   explicit ClientVerifier(std::shared_ptr<const AccessControl> access)
@@ -26,10 +26,10 @@ class ClientVerifier : public tls::ExternalCertificateVerifier {
 
   bool Verify(tls::TlsCustomVerificationCheckRequest* request,
               std::function<void(grpc::Status)> /*callback*/, grpc::Status* result) override {
-    // OpenSSL's chain is without the client's own certificate.
+    // OpenSSL's chain does not hold the client's own certificate.
     const std::string pem =
         StringOf(request->peer_cert()) + StringOf(request->peer_cert_full_chain());
-    // Without one the call must bring a token.
+    // A client without a certificate needs a token in each call.
     const absl::Status status = pem.empty() ? absl::OkStatus() : access_->CheckCertificate(pem);
     *result = ToGrpcStatus(status);
     return true;
@@ -62,6 +62,10 @@ absl::StatusOr<std::shared_ptr<grpc::ServerCredentials>> MakeServerCredentials(
         tls::ExternalCertificateVerifier::Create<ClientVerifier>(std::move(access)));
   }
   return tls::TlsServerCredentials(settings);
+}
+
+CertificateFiles CertificateFilesOf(const ServerOptions& options) {
+  return {options.tls_cert, options.tls_client_ca, options.tls_crl_dir};
 }
 
 }  // namespace homing::server

@@ -1,4 +1,4 @@
-// TLS of the server: certificates that are read again while it runs. Source: own design.
+// TLS of the server, with certificates that are reloaded while it runs.
 #ifndef SERVER_TLS_CREDENTIALS_H_
 #define SERVER_TLS_CREDENTIALS_H_
 
@@ -8,15 +8,18 @@
 
 #include "absl/status/statusor.h"
 #include "server/access/access_control.h"
+#include "server/access/certificate_expiry.h"
 #include "server/config/server_options.h"
 
 namespace homing::server {
 
-// Plain text without tls_cert. With a client CA, the handshake asks `access` too; a client may then
-// come without a certificate only if tokens are in use.
-// INVALID_ARGUMENT: a file is bad.
+// Plain text without tls_cert. With a client CA, the handshake also checks with `access`; clients
+// without a certificate are accepted only if tokens are in use. INVALID_ARGUMENT: a file is bad.
 absl::StatusOr<std::shared_ptr<grpc::ServerCredentials>> MakeServerCredentials(
     const ServerOptions& options, std::shared_ptr<const AccessControl> access);
+
+// The files whose ends Housekeeping and the metrics watch.
+CertificateFiles CertificateFilesOf(const ServerOptions& options);
 
 }  // namespace homing::server
 

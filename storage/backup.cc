@@ -26,7 +26,8 @@ absl::Status Copy(Connection& from, const std::string& to) {
   return copy->Run([&]() -> absl::Status {
     HOMING_RETURN_IF_ERROR(CheckOwnFile(from));
     copy->Execute("PRAGMA synchronous=FULL");
-    // All pages in one step, that is in one read transaction: a writer never makes it begin again.
+    // All pages in one step, that is in one read transaction: writes by the server never restart
+    // it.
     SQLite::Backup backup(copy->database(), from.database());
     backup.executeStep();
     const std::string check = copy->Text("PRAGMA quick_check(1)");
@@ -35,7 +36,7 @@ absl::Status Copy(Connection& from, const std::string& to) {
   });
 }
 
-// The new name is on the disk.
+// Makes the new name durable.
 absl::Status SyncFolder(const fs::path& file) {
   const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
   const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
@@ -53,7 +54,7 @@ void RemovePartial(const std::string& partial) {
 }
 
 absl::Status GiveName(const std::string& partial, const std::string& to) {
-  // Unlike rename, never replaces a file.
+  // Unlike rename, this never replaces a file.
   if (::link(partial.c_str(), to.c_str()) != 0) {
     const int error = errno;
     const std::string message =
@@ -84,7 +85,7 @@ absl::StatusOr<std::unique_ptr<std::istream>> CopyForReading(const std::string& 
                                                              const std::string& by) {
   std::error_code error;
   fs::remove(by, error);
-  // Recording goes before: the copy must not fill the disk. The file, its log and a margin.
+  // The copy must leave room for recording: the file, its log and a margin.
   const std::uintmax_t room = fs::space(fs::absolute(path).parent_path(), error).available;
   std::uintmax_t needed = fs::file_size(path, error);
   const std::uintmax_t log = fs::file_size(path + "-wal", error);

@@ -4,17 +4,18 @@
 
 #include <utility>
 
+#include "homing/base/mutex.h"
 #include "homing/base/status_macros.h"
 
 namespace homing::storage {
 namespace {
 
-// Pages of the log when it is due: 48 of the 64 MiB that it may keep. A page that changes again and
-// again is then moved once.
+// Length of the log, in pages, at which it is moved: 48 of the 64 MiB that it may keep. A page that
+// changes often is then moved once.
 constexpr int kDuePages = 12288;
-// After one that did not empty the log (a reader needs it, the disk is full).
+// After an attempt that did not empty the log (a reader needs it, the disk is full).
 constexpr int kPagesToNextTry = 1024;
-// So few are moved while the writer waits: a few milliseconds.
+// So few pages are moved while the writer waits: a few milliseconds.
 constexpr int kFewPages = 512;
 constexpr int kMostRounds = 5;
 
@@ -22,12 +23,12 @@ constexpr int kMostRounds = 5;
 
 absl::StatusOr<std::unique_ptr<Checkpointer>> Checkpointer::Start(const std::string& path,
                                                                   Connection* writer,
-                                                                  std::mutex* write_mutex,
+                                                                  Mutex* write_mutex,
                                                                   int busy_timeout_ms) {
   HOMING_ASSIGN_OR_RETURN(auto connection,
                           Connection::Open(path, Connection::Access::kReadWrite, busy_timeout_ms));
   HOMING_RETURN_IF_ERROR(connection->Run([&] {
-    // The log is on disk before the file changes, and the file before the log begins anew.
+    // The log is durable before the file changes, and the file before the log is reused.
     connection->Execute("PRAGMA synchronous=FULL");
     return absl::OkStatus();
   }));
@@ -36,7 +37,7 @@ absl::StatusOr<std::unique_ptr<Checkpointer>> Checkpointer::Start(const std::str
 }
 
 Checkpointer::Checkpointer(std::unique_ptr<Connection> connection, Connection* writer,
-                           std::mutex* write_mutex)
+                           Mutex* write_mutex)
     : connection_(std::move(connection)),
       writer_(writer),
       write_mutex_(write_mutex),
@@ -54,33 +55,34 @@ Checkpointer::Checkpointer(std::unique_ptr<Connection> connection, Connection* w
 Checkpointer::~Checkpointer() {
   sqlite3_wal_hook(writer_->database().getHandle(), nullptr, nullptr);
   {
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     stopping_ = true;
   }
-  changed_.notify_one();
+  changed_.NotifyOne();
   thread_.join();
 }
 
 void Checkpointer::NoteLog(int pages) {
+  pages_in_log_ = pages;
   if (pages < kDuePages) next_at_ = kDuePages;
   if (pages < next_at_) return;
   next_at_ = pages + kPagesToNextTry;
   {
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     due_ = true;
   }
-  changed_.notify_one();
+  changed_.NotifyOne();
 }
 
 void Checkpointer::Run() {
-  std::unique_lock lock(mutex_);
+  MutexLock lock(mutex_);
   while (true) {
-    changed_.wait(lock, [this] { return stopping_ || due_; });
+    while (!stopping_ && !due_) changed_.Wait(mutex_);
     if (stopping_) return;
     due_ = false;
-    lock.unlock();
+    lock.Unlock();
     MoveAll();
-    lock.lock();
+    lock.Lock();
   }
 }
 
@@ -88,11 +90,20 @@ void Checkpointer::MoveAll() {
   int left = kFewPages + 1;
   for (int round = 0; round < kMostRounds && left > kFewPages; ++round) left = Move();
   if (left < 0) return;
-  const std::lock_guard lock(*write_mutex_);
+  const MutexLock lock(*write_mutex_);
   Move();
 }
 
+int Checkpointer::CountPagesInLog() {
+  const MutexLock lock(connection_mutex_);
+  int in_log = 0;
+  const int code = sqlite3_wal_checkpoint_v2(connection_->database().getHandle(), nullptr,
+                                             SQLITE_CHECKPOINT_PASSIVE, &in_log, nullptr);
+  return code == SQLITE_OK ? in_log : -1;
+}
+
 int Checkpointer::Move() {
+  const MutexLock lock(connection_mutex_);
   int in_log = 0;
   int moved = 0;
   const int code = sqlite3_wal_checkpoint_v2(connection_->database().getHandle(), nullptr,

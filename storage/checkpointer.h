@@ -1,53 +1,60 @@
-// Moves what was committed from SQLite's log into the file, beside the writer: a thousand journeys
-// change some thousand pages a second, and to move them takes longer than a robot should wait for
-// its answer. Source: own design; https://sqlite.org/wal.html, 2.1.
+// Moves committed pages from SQLite's log into the file, beside the writer. A thousand journeys
+// change some thousand pages a second; moving them takes longer than a robot should wait for its
+// answer. See https://sqlite.org/wal.html, 2.1.
 #ifndef STORAGE_CHECKPOINTER_H_
 #define STORAGE_CHECKPOINTER_H_
 
-#include <condition_variable>
+#include <atomic>
 #include <memory>
-#include <mutex>
 #include <string>
 #include <thread>
 
 #include "absl/status/statusor.h"
+#include "homing/base/mutex.h"
 #include "storage/connection.h"
 
 namespace homing::storage {
 
-// One thread with a connection of its own. Most is moved while the writer goes on; the rest, a few
-// pages, while it holds the writer back, so that the log begins anew.
+// One thread with its own connection. It moves most pages while the writer continues, and the last
+// few while it blocks the writer, so that the log starts again at its beginning.
 class Checkpointer {
  public:
-  // Of the file at `path`, which `writer` alone writes, with `write_mutex` held; both must outlive
-  // it. Takes the place of the writer's own checkpoints. As Connection::Open.
+  // For the file at `path`. Only `writer` writes it, with `write_mutex` held; both must outlive
+  // this object. Replaces the writer's own checkpoints. Errors of Connection::Open.
   static absl::StatusOr<std::unique_ptr<Checkpointer>> Start(const std::string& path,
-                                                             Connection* writer,
-                                                             std::mutex* write_mutex,
+                                                             Connection* writer, Mutex* write_mutex,
                                                              int busy_timeout_ms);
-  // Ends what it does.
+  // As of the last commit.
+  int pages_in_log() const { return pages_in_log_; }
+  // The current number in SQLite: another program may have moved the log into the file. -1:
+  // unknown. Thread-safe.
+  int CountPagesInLog();
+
+  // Waits for the current work.
   ~Checkpointer();
   Checkpointer(const Checkpointer&) = delete;
   Checkpointer& operator=(const Checkpointer&) = delete;
 
  private:
-  Checkpointer(std::unique_ptr<Connection> connection, Connection* writer, std::mutex* write_mutex);
-  // After each commit.
+  Checkpointer(std::unique_ptr<Connection> connection, Connection* writer, Mutex* write_mutex);
+  // Called after each commit with the length of the log.
   void NoteLog(int pages);
   void Run();
   void MoveAll();
-  // Pages that are still to be moved when it returns; negative: it could not be done.
+  // Returns the pages that remain to be moved; negative: it failed.
   int Move();
 
+  std::atomic<int> pages_in_log_ = 0;
+  // While connection_ is used.
+  Mutex connection_mutex_;
   const std::unique_ptr<Connection> connection_;
   Connection* const writer_;
-  std::mutex* const write_mutex_;
-  std::mutex mutex_;
-  std::condition_variable changed_;
-  // Guarded by mutex_.
-  bool due_ = false;
-  bool stopping_ = false;
-  // Of the log, when it is next due; the writer's.
+  Mutex* const write_mutex_;
+  Mutex mutex_;
+  ConditionVariable changed_;
+  bool due_ HOMING_GUARDED_BY(mutex_) = false;
+  bool stopping_ HOMING_GUARDED_BY(mutex_) = false;
+  // Length of the log, in pages, at which it is moved next. The writer's thread uses it.
   int next_at_;
   std::thread thread_;
 };

@@ -1,14 +1,13 @@
 #include "storage/commit_queue.h"
 
 #include <algorithm>
-#include <condition_variable>
 #include <deque>
-#include <mutex>
 #include <thread>
 #include <utility>
 #include <vector>
 
 #include "absl/strings/str_cat.h"
+#include "homing/base/mutex.h"
 
 namespace homing::storage {
 
@@ -22,39 +21,50 @@ struct CommitQueue::State {
   JourneyStore* const store;
   const CommitQueueOptions options;
 
-  std::mutex mutex;
-  std::condition_variable changed;
-  // Guarded by mutex. The two have equal length.
-  std::deque<JourneyAppend> appends;
-  std::deque<Done> callbacks;
-  bool stopping = false;
+  Mutex mutex;
+  ConditionVariable changed;
+  // The two have equal length.
+  std::deque<JourneyAppend> appends HOMING_GUARDED_BY(mutex);
+  std::deque<Done> callbacks HOMING_GUARDED_BY(mutex);
+  bool stopping HOMING_GUARDED_BY(mutex) = false;
   // Appends in the last transaction.
-  std::size_t last_batch = 0;
-  // The next transaction begins at a time, or when full_batch appends are there: one more does not
-  // matter.
-  bool gathering = false;
-  // Whose transactions have ended.
-  std::deque<Committed> committed;
-  std::condition_variable ended;
-  bool all_committed = false;
+  std::size_t last_batch HOMING_GUARDED_BY(mutex) = 0;
+  // The next transaction begins at a set time, or once full_batch appends wait: Submit need not
+  // wake the thread for each append.
+  bool gathering HOMING_GUARDED_BY(mutex) = false;
+  // Transactions that have ended and are not yet reported.
+  std::deque<Committed> committed HOMING_GUARDED_BY(mutex);
+  ConditionVariable ended;
+  bool all_committed HOMING_GUARDED_BY(mutex) = false;
 
   std::thread committing;
-  std::thread telling;
+  std::thread calling_back;
 
   State(JourneyStore* s, const CommitQueueOptions& o) : store(s), options(o) {}
   void Commit();
-  void Tell();
+  void CallBack();
+  void Report(const std::vector<absl::Status>& statuses, std::chrono::duration<double> time) const;
   bool TakeBatch(std::vector<JourneyAppend>& batch, std::vector<Done>& done);
 };
 
-// Waits for work. False: stopped, and nothing is left.
+void CommitQueue::State::Report(const std::vector<absl::Status>& statuses,
+                                std::chrono::duration<double> time) const {
+  if (options.on_commit) {
+    const auto stored = std::count_if(statuses.begin(), statuses.end(),
+                                      [](const absl::Status& status) { return status.ok(); });
+    options.on_commit(static_cast<int>(stored), stored > 0, time);
+  }
+}
+
+// Waits for appends. False: stopped, and nothing is left.
 bool CommitQueue::State::TakeBatch(std::vector<JourneyAppend>& batch, std::vector<Done>& done) {
-  std::unique_lock lock(mutex);
-  changed.wait(lock, [this] { return stopping || !appends.empty(); });
+  MutexLock lock(mutex);
+  while (!stopping && appends.empty()) changed.Wait(mutex);
   if (last_batch >= options.busy_batch) {
     gathering = true;
-    changed.wait_for(lock, options.gather_time,
-                     [this] { return stopping || appends.size() >= options.full_batch; });
+    const auto end = std::chrono::steady_clock::now() + options.gather_time;
+    while (!stopping && appends.size() < options.full_batch && changed.WaitUntil(mutex, end)) {
+    }
     gathering = false;
   }
   const std::size_t limit = static_cast<std::size_t>(std::max(1, options.max_batch));
@@ -70,62 +80,64 @@ bool CommitQueue::State::TakeBatch(std::vector<JourneyAppend>& batch, std::vecto
 void CommitQueue::State::Commit() {
   Committed batch;
   while (TakeBatch(batch.appends, batch.callbacks)) {
+    const auto begin = std::chrono::steady_clock::now();
     batch.statuses = store->AppendSteps(batch.appends);
+    Report(batch.statuses, std::chrono::steady_clock::now() - begin);
     {
-      const std::lock_guard lock(mutex);
+      const MutexLock lock(mutex);
       committed.push_back(std::exchange(batch, {}));
     }
-    ended.notify_one();
+    ended.NotifyOne();
   }
   {
-    const std::lock_guard lock(mutex);
+    const MutexLock lock(mutex);
     all_committed = true;
   }
-  ended.notify_one();
+  ended.NotifyOne();
 }
 
-void CommitQueue::State::Tell() {
-  std::unique_lock lock(mutex);
+void CommitQueue::State::CallBack() {
+  MutexLock lock(mutex);
   while (true) {
-    ended.wait(lock, [this] { return all_committed || !committed.empty(); });
+    while (!all_committed && committed.empty()) ended.Wait(mutex);
     if (committed.empty()) return;
     Committed batch = std::move(committed.front());
     committed.pop_front();
-    lock.unlock();
+    lock.Unlock();
     for (std::size_t i = 0; i < batch.callbacks.size(); ++i) {
       batch.callbacks[i](std::move(batch.appends[i]), batch.statuses[i]);
-      // What the callback holds must not outlive its turn.
+      // Release what the callback holds before the next one runs.
       batch.callbacks[i] = nullptr;
     }
-    lock.lock();
+    lock.Lock();
   }
 }
 
 CommitQueue::CommitQueue(JourneyStore* store, const CommitQueueOptions& options)
     : state_(std::make_unique<State>(store, options)) {
   state_->committing = std::thread([state = state_.get()] { state->Commit(); });
-  state_->telling = std::thread([state = state_.get()] { state->Tell(); });
+  state_->calling_back = std::thread([state = state_.get()] { state->CallBack(); });
 }
 
 CommitQueue::~CommitQueue() {
   {
-    std::lock_guard lock(state_->mutex);
+    const MutexLock lock(state_->mutex);
     state_->stopping = true;
   }
-  state_->changed.notify_one();
+  state_->changed.NotifyOne();
   state_->committing.join();
-  state_->telling.join();
+  state_->calling_back.join();
 }
 
 std::size_t CommitQueue::waiting() const {
-  std::lock_guard lock(state_->mutex);
+  const MutexLock lock(state_->mutex);
   return state_->appends.size();
 }
 
 absl::Status CommitQueue::Submit(JourneyAppend append, Done done) {
   bool begins = false;
   {
-    std::lock_guard lock(state_->mutex);
+    const MutexLock lock(state_->mutex);
     if (state_->appends.size() >= static_cast<std::size_t>(state_->options.max_pending)) {
       return absl::ResourceExhaustedError(
           absl::StrCat("commit queue is full: at most ", state_->options.max_pending, " wait"));
@@ -134,7 +146,7 @@ absl::Status CommitQueue::Submit(JourneyAppend append, Done done) {
     state_->callbacks.push_back(std::move(done));
     begins = !state_->gathering || state_->appends.size() >= state_->options.full_batch;
   }
-  if (begins) state_->changed.notify_one();
+  if (begins) state_->changed.NotifyOne();
   return absl::OkStatus();
 }
 

@@ -1,4 +1,4 @@
-// Group commit: appends of many streams share transactions. Source: own design.
+// Group commit: appends of many streams share transactions.
 #ifndef STORAGE_COMMIT_QUEUE_H_
 #define STORAGE_COMMIT_QUEUE_H_
 
@@ -12,34 +12,37 @@
 namespace homing::storage {
 
 struct CommitQueueOptions {
-  // Most appends waiting; Submit blocks no one: it refuses above this. [1, 1'000'000].
+  // Most waiting appends; Submit never blocks, it refuses more. [1, 1'000'000].
   int max_pending = 32768;
   // Most appends in one transaction.
   int max_batch = 1024;
-  // After a transaction of at least `busy_batch` appends the next one waits so long for more to
-  // come, unless `full_batch` are there: transactions have a cost of their own, most of all on a
-  // disk whose syncs are quick. A robot alone is never kept waiting.
+  // After a transaction of at least `busy_batch` appends, the next one waits this long for more, or
+  // until it has `full_batch`: each transaction has a fixed cost, which dominates on a disk with
+  // fast syncs. A single robot never waits.
   std::size_t busy_batch = 5;
   std::size_t full_batch = 256;
   std::chrono::milliseconds gather_time{2};
+  // Called by the committing thread after each transaction, unless empty: how many appends were
+  // stored, whether the transaction succeeded, and how long it took.
+  std::function<void(int stored, bool ok, std::chrono::duration<double> time)> on_commit = nullptr;
 };
 
-// One thread commits all that waits, in order of submission; another calls back, so that the next
-// transaction goes on meanwhile. Thread-safe.
+// One thread commits the waiting appends in their order; another one calls back, so that the next
+// transaction runs meanwhile. Thread-safe.
 class CommitQueue {
  public:
-  // Called after the transaction ended, with what was to be appended, one at a time and in order of
-  // submission.
+  // Called after the transaction, with the append and its result, one call at a time, in the order
+  // of submission.
   using Done = std::function<void(JourneyAppend, absl::Status)>;
 
   // `store` must outlive the queue.
   explicit CommitQueue(JourneyStore* store, const CommitQueueOptions& options = {});
-  // Commits all that waits, calls back, then stops.
+  // Commits all waiting appends, calls back, then stops.
   ~CommitQueue();
 
   // RESOURCE_EXHAUSTED when full (`done` is then not called, and `append` is lost).
   absl::Status Submit(JourneyAppend append, Done done);
-  // Appends that wait for their transaction to begin.
+  // Appends whose transaction has not begun.
   std::size_t waiting() const;
 
  private:

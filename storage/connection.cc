@@ -23,7 +23,7 @@ int FlagsOf(Connection::Access access) {
   return SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE;
 }
 
-// As a URI, with what has a meaning there escaped.
+// As a URI, with its special characters escaped.
 std::string ImmutableUri(const std::string& path) {
   std::string uri = path.rfind('/', 0) == 0 ? "file://" : "file:";
   for (const char c : path) {
@@ -34,7 +34,7 @@ std::string ImmutableUri(const std::string& path) {
   return uri + "?immutable=1";
 }
 
-// Runs `body`; what SQLiteCpp throws becomes the status.
+// Runs `body`; exceptions of SQLiteCpp become the status.
 absl::Status Guard(const Connection::Body& body) {
   try {
     return body();
@@ -47,10 +47,21 @@ absl::Status Guard(const Connection::Body& body) {
 
 }  // namespace
 
+SQLite::Column Query::Value(int column, int type) {
+  SQLite::Column value = statement_->getColumn(column);
+  const int found = value.getType();
+  if (found != type && !(type == SQLite::FLOAT && found == SQLite::INTEGER)) {
+    throw SQLite::Exception(std::string("column ") + value.getName() + " holds " +
+                                (found == SQLite::Null ? "NULL" : "a value of another type"),
+                            SQLITE_CORRUPT);
+  }
+  return value;
+}
+
 absl::StatusOr<std::unique_ptr<Connection>> Connection::Open(const std::string& path, Access access,
                                                              int busy_timeout_ms) {
-  // Nobody asks how much memory SQLite has, and to count it takes a lock at each allocation. Before
-  // its first use; later it is refused, and nothing is lost.
+  // SQLite's memory statistics are not used, and take a lock at each allocation. This must run
+  // before the first use; later SQLite refuses it, without harm.
   static const int uncounted = sqlite3_config(SQLITE_CONFIG_MEMSTATUS, 0);
   static_cast<void>(uncounted);
   const int flags = SQLite::OPEN_NOMUTEX | FlagsOf(access);
@@ -68,18 +79,24 @@ absl::StatusOr<std::unique_ptr<Connection>> Connection::Open(const std::string& 
 absl::Status Connection::Run(const Body& body) { return Guard(body); }
 
 absl::Status Connection::Transact(const char* begin, const Body& body) {
-  absl::Status status = Guard([&] {
-    database_.exec(begin);
-    absl::Status result = body();
-    if (result.ok()) database_.exec("COMMIT");
-    return result;
-  });
-  if (!status.ok()) RollBack();
-  return status;
+  try {
+    absl::Status status = Guard([&] {
+      database_.exec(begin);
+      absl::Status result = body();
+      if (result.ok()) database_.exec("COMMIT");
+      return result;
+    });
+    if (!status.ok()) RollBack();
+    return status;
+  } catch (...) {
+    // Out of memory, for example.
+    RollBack();
+    throw;
+  }
 }
 
 void Connection::RollBack() {
-  // After some errors SQLite has rolled back by itself.
+  // SQLite has already rolled back after some errors.
   if (sqlite3_get_autocommit(database_.getHandle()) == 0) database_.tryExec("ROLLBACK");
 }
 

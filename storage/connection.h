@@ -1,5 +1,5 @@
 // One connection to the SQLite file: transactions and prepared statements. Exceptions of SQLiteCpp
-// end here. Source: own design.
+// are caught here.
 #ifndef STORAGE_CONNECTION_H_
 #define STORAGE_CONNECTION_H_
 
@@ -19,8 +19,8 @@ namespace homing::storage {
 // For programs beside the server.
 inline constexpr int kBusyTimeoutMs = 5000;
 
-// One use of a prepared statement; made ready for the next use at its end. Its members throw
-// SQLite::Exception and are used only in the body of a transaction.
+// One use of a prepared statement; the destructor resets it. Its members throw SQLite::Exception,
+// so that they may be used in the body of a transaction only.
 class Query {
  public:
   explicit Query(SQLite::Statement* statement) : statement_(statement) {}
@@ -28,16 +28,17 @@ class Query {
   Query& operator=(const Query&) = delete;
   ~Query() { statement_->tryReset(); }
 
-  // Steps to the next row; false: no more.
+  // Steps to the next row; false: there is none.
   bool Next() { return statement_->executeStep(); }
   // For statements without rows. Returns the number of rows changed.
   int Run() { return statement_->exec(); }
-  std::int64_t Integer(int column) { return statement_->getColumn(column).getInt64(); }
-  double Real(int column) { return statement_->getColumn(column).getDouble(); }
-  std::string Text(int column) { return statement_->getColumn(column).getString(); }
-  // A BLOB, as it is.
+  // A value of another type, or NULL, is damage: SQLite would convert it to 0 or "".
+  std::int64_t Integer(int column) { return Value(column, SQLite::INTEGER).getInt64(); }
+  double Real(int column) { return Value(column, SQLite::FLOAT).getDouble(); }
+  std::string Text(int column) { return Value(column, SQLite::TEXT).getString(); }
+  // A BLOB, unchanged.
   std::string Bytes(int column) {
-    const SQLite::Column value = statement_->getColumn(column);
+    const SQLite::Column value = Value(column, SQLite::BLOB);
     return {static_cast<const char*>(value.getBlob()), static_cast<std::size_t>(value.getBytes())};
   }
   bool IsNull(int column) { return statement_->isColumnNull(column); }
@@ -54,6 +55,8 @@ class Query {
   }
 
  private:
+  SQLite::Column Value(int column, int type);
+
   SQLite::Statement* statement_;
 };
 
@@ -62,15 +65,14 @@ class Connection {
  public:
   using Body = std::function<absl::Status()>;
 
-  // kImmutable: read-only, and nothing else changes the file meanwhile: no lock, no log, no file
-  // beside it.
+  // kImmutable: read-only, and no other program changes the file: no lock, no log, no other file.
   enum class Access { kReadWrite, kReadOnly, kImmutable };
   static absl::StatusOr<std::unique_ptr<Connection>> Open(const std::string& path, Access access,
                                                           int busy_timeout_ms);
 
-  // Commits when `body` returns OK, else rolls back; so it does for any exception of SQLiteCpp,
-  // which becomes the status. Write takes the write lock at once; Read sees one state of the store
-  // from its first query to its end.
+  // Commits if `body` returns OK, else rolls back. An exception of SQLiteCpp rolls back and becomes
+  // the status. Write takes the write lock at once. Read sees one state of the store from its first
+  // query to its end.
   absl::Status Write(const Body& body) { return Transact("BEGIN IMMEDIATE", body); }
   absl::Status Read(const Body& body) { return Transact("BEGIN", body); }
   // Without a transaction (PRAGMA); exceptions become the status.
@@ -104,11 +106,12 @@ class Connection {
   std::unordered_map<const char*, std::unique_ptr<SQLite::Statement>> statements_;
 };
 
-// Whether `path` has a log with what is not yet in the file: it is in use, or was not closed well.
+// `path` has a log with pages that are not in the file yet: it is in use, or was not closed
+// cleanly.
 bool HasLog(const std::string& path);
 
-// To read a file that a server may or may not be using: as kReadOnly, but as kImmutable when there
-// is no log, so that nothing appears beside a file that nobody uses.
+// For reading a file that a server may be using: as kReadOnly, but as kImmutable without a log, so
+// that no other file is created.
 absl::StatusOr<std::unique_ptr<Connection>> OpenForReading(const std::string& path,
                                                            int busy_timeout_ms);
 

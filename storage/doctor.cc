@@ -21,7 +21,7 @@ namespace {
 
 constexpr int kMostProblems = 100;
 
-// Each may end early in a damaged file: what one does not reach, another may.
+// Each query may end early in a damaged file; together they reach more rows.
 constexpr const char* kJourneyNames[] = {
     "SELECT name FROM journeys ORDER BY journey_id",
     "SELECT name FROM journeys ORDER BY journey_id DESC",
@@ -30,7 +30,7 @@ constexpr const char* kJourneyNames[] = {
 constexpr const char* kModelNames[] = {"SELECT name FROM deviation_models ORDER BY name",
                                        "SELECT name FROM deviation_models ORDER BY name DESC"};
 
-// What to do with one that is whole; its status becomes that of the finding.
+// Called for each readable item; its status becomes that of the finding.
 struct Savers {
   std::function<absl::Status(const JourneyRecord&, const JourneyMap&)> journey =
       [](const auto&, const auto&) { return absl::OkStatus(); };
@@ -158,7 +158,7 @@ bool IsWhole(const Diagnosis& diagnosis) {
 absl::StatusOr<Diagnosis> Examine(const std::string& path) { return ExamineWith(path, {}); }
 
 absl::StatusOr<Diagnosis> Salvage(const std::string& path, const std::string& to) {
-  // First, so that no file is left when there is nothing to read.
+  // First, so that no file is created when nothing can be read.
   HOMING_RETURN_IF_ERROR(OpenForReading(path, kBusyTimeoutMs).status());
   HOMING_ASSIGN_OR_RETURN(const auto saved, MakeStore(to));
   Savers savers;

@@ -1,4 +1,4 @@
-// Looks at a database whatever its state, and saves what is whole. Source: own design.
+// Examines a database in any state, and salvages its readable part.
 #ifndef STORAGE_DOCTOR_H_
 #define STORAGE_DOCTOR_H_
 
@@ -15,30 +15,30 @@ namespace homing::storage {
 struct Finding {
   std::string name;
   std::int64_t step_count = 0;
-  // OK: whole. Else why not.
+  // OK: complete. Else the damage.
   absl::Status status;
 };
 
 struct Diagnosis {
   std::int64_t schema_version = 0;
-  // What SQLite finds wrong with its pages, at most 100 lines; what keeps the doctor from seeing
-  // all rows. Empty: nothing.
+  // Problems that SQLite reports about its pages, at most 100 lines, and problems that hide rows
+  // from the doctor. Empty: none.
   std::vector<std::string> problems;
   std::vector<Finding> journeys;
   std::vector<Finding> models;
 };
 
-// How many are not whole.
+// The number of damaged ones.
 int CountDamaged(const std::vector<Finding>& findings);
 bool IsWhole(const Diagnosis& diagnosis);
 
-// Reads every page and loads every journey; changes nothing in the file. A server may be running on
-// it. DATA_LOSS: nothing can be read; FAILED_PRECONDITION: no such file, another program's, or of
+// Reads every page and loads every journey; does not change the file. A server may be using it.
+// DATA_LOSS: nothing can be read; FAILED_PRECONDITION: no such file, another program's file, or
 // another version.
 absl::StatusOr<Diagnosis> Examine(const std::string& path);
 
-// As Examine; and writes what is whole, journeys that are still being recorded included, into the
-// new file `to`. ALREADY_EXISTS.
+// As Examine; also writes the complete items, including journeys that are still being recorded,
+// into the new file `to`. ALREADY_EXISTS.
 absl::StatusOr<Diagnosis> Salvage(const std::string& path, const std::string& to);
 
 }  // namespace homing::storage

@@ -31,9 +31,10 @@ constexpr char kInsertSettings[] =
 constexpr char kSetSettings[] = "UPDATE journey_settings SET settings = ? WHERE journey_id = ?";
 constexpr char kDelete[] = "DELETE FROM journeys WHERE name = ?";
 constexpr char kSetState[] = "UPDATE journeys SET state = ? WHERE name = ?";
+constexpr char kSetReaders[] = "UPDATE journeys SET readers = ? WHERE name = ?";
 constexpr char kSetWriter[] = "UPDATE journeys SET writer_id = ? WHERE name = ?";
 
-// Above every name that begins with a prefix: no UTF-8 text holds this byte.
+// Sorts after every name with this prefix: no UTF-8 text holds this byte.
 constexpr char kAfterAll[] = "\xff";
 
 absl::StatusOr<JourneyRow> ReadJourneyRow(Query& query) {
@@ -116,6 +117,11 @@ void SetJourneySettings(Connection& connection, std::int64_t journey_id,
 absl::Status SetJourneyWriter(Connection& connection, const std::string& name,
                               const std::string& writer_id) {
   return FoundIf(connection.Prepare(kSetWriter, writer_id, name).Run(), name);
+}
+
+absl::Status SetJourneyReaders(Connection& connection, const std::string& name,
+                               const std::vector<std::string>& readers) {
+  return FoundIf(connection.Prepare(kSetReaders, ToJson(readers), name).Run(), name);
 }
 
 }  // namespace homing::storage

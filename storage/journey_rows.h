@@ -1,5 +1,5 @@
-// Rows of `journeys` and `journey_settings`. All functions are used in the body of a transaction
-// and throw SQLite::Exception, which ends the transaction. Source: own design.
+// Rows of `journeys` and `journey_settings`. All functions run in the body of a transaction and
+// throw SQLite::Exception, which ends the transaction.
 #ifndef STORAGE_JOURNEY_ROWS_H_
 #define STORAGE_JOURNEY_ROWS_H_
 
@@ -14,14 +14,14 @@
 namespace homing::storage {
 
 struct JourneyRow {
-  // Never leaves the store.
+  // Internal to the store.
   std::int64_t id = 0;
   JourneyRecord record;
 };
 
 absl::Status JourneyNotFound(const std::string& name);
 
-// Counts included. ALREADY_EXISTS. Returns the id.
+// Writes the counts too. ALREADY_EXISTS. Returns the id.
 absl::StatusOr<std::int64_t> InsertJourney(Connection& connection, const JourneyRecord& record);
 // NOT_FOUND, DATA_LOSS.
 absl::StatusOr<JourneyRow> FindJourney(Connection& connection, const std::string& name);
@@ -33,6 +33,9 @@ absl::Status DeleteJourneyRow(Connection& connection, const std::string& name);
 absl::Status SetJourneyState(Connection& connection, const std::string& name, JourneyState state);
 void SetJourneySettings(Connection& connection, std::int64_t journey_id,
                         const JourneySettings& settings);
+// NOT_FOUND.
+absl::Status SetJourneyReaders(Connection& connection, const std::string& name,
+                               const std::vector<std::string>& readers);
 absl::Status SetJourneyWriter(Connection& connection, const std::string& name,
                               const std::string& writer_id);
 

@@ -1,4 +1,4 @@
-// Journeys on disk: one interface, SQLite behind it. Source: own design.
+// The interface to stored journeys, and its options.
 #ifndef STORAGE_JOURNEY_STORE_H_
 #define STORAGE_JOURNEY_STORE_H_
 
@@ -19,22 +19,22 @@ namespace homing::storage {
 
 enum class JourneyState { kActive = 1, kFinished = 2 };
 
-// What is kept of a journey beside its map.
+// A journey without its map.
 struct JourneyRecord {
   // "robots/{robot}/journeys/{journey}".
   std::string name;
   JourneySettings settings;
   JourneyState state = JourneyState::kActive;
-  // Who writes; empty: nobody said.
+  // The current writer; empty: none was given.
   std::string writer_id;
   std::vector<std::string> readers;
   InputKind input = InputKind::kUnknown;
-  // First sequence that is not durable.
+  // The first sequence that is not committed.
   std::int64_t next_sequence = 0;
-  // What recording that goes on must see first: for frames, the reference; else next_sequence.
+  // What a recording that continues must see first: for frames, the reference; else next_sequence.
   std::int64_t resend_from = 0;
-  // Nanoseconds since the epoch; 0: not given. create: server's clock; start, end: robot's, of the
-  // first and the last step.
+  // Nanoseconds since the epoch; 0: not given. create: by the server's clock. start and end: by the
+  // robot's clock, of the first and last step.
   std::int64_t create_time_ns = 0;
   std::int64_t start_time_ns = 0;
   std::int64_t end_time_ns = 0;
@@ -44,7 +44,7 @@ struct JourneyRecord {
   std::int64_t fingerprint_count = 0;
 };
 
-// What one observation adds to a journey. Without a step: the number alone becomes durable.
+// The part that one observation adds to a journey. Without a step, only the sequence is stored.
 struct JourneyAppend {
   std::string journey;
   // Becomes next_sequence - 1.
@@ -52,7 +52,7 @@ struct JourneyAppend {
   InputKind input = InputKind::kUnknown;
   std::int64_t capture_time_ns = 0;
   std::optional<JourneyStep> step;
-  // Set when an image size became known with this observation.
+  // Set if this observation made an image size known.
   std::optional<JourneySettings> settings;
   // Becomes the journey's resend_from.
   std::int64_t resend_from = 0;
@@ -66,9 +66,9 @@ struct StoredModel {
   std::int64_t create_time_ns = 0;
 };
 
-// Thread-safe. Every write is one transaction and durable (synchronous) when it returns OK. Codes
-// besides those named: UNAVAILABLE (busy; the disk does not answer), RESOURCE_EXHAUSTED (disk
-// full), DATA_LOSS (corrupt), FAILED_PRECONDITION (read-only), INTERNAL.
+// Thread-safe. Every write is one transaction, and durable (synchronous) when it returns OK.
+// Further codes: UNAVAILABLE (busy, or the disk does not answer), RESOURCE_EXHAUSTED (disk full),
+// DATA_LOSS (corrupt), FAILED_PRECONDITION (read-only), INTERNAL.
 class JourneyStore {
  public:
   virtual ~JourneyStore() = default;
@@ -77,37 +77,41 @@ class JourneyStore {
   virtual absl::Status CreateJourney(const JourneyRecord& record) = 0;
   // NOT_FOUND.
   virtual absl::StatusOr<JourneyRecord> GetJourney(const std::string& name) = 0;
-  // In order of name, those after `after` whose name begins with `prefix`; at most `limit`.
+  // The records after the name `after` whose names begin with `prefix`; at most `limit`, in order
+  // of name.
   virtual absl::StatusOr<std::vector<JourneyRecord>> ListJourneys(const std::string& prefix,
                                                                   const std::string& after,
                                                                   int limit) = 0;
   // NOT_FOUND.
   virtual absl::Status DeleteJourney(const std::string& name) = 0;
-  // NOT_FOUND. OK when already finished.
+  // NOT_FOUND. OK if already finished.
   virtual absl::Status FinishJourney(const std::string& name) = 0;
-  // The writer changed. NOT_FOUND.
+  // Stores a new writer. NOT_FOUND.
   virtual absl::Status SetWriter(const std::string& name, const std::string& writer_id) = 0;
-  // Appends to any number of journeys in ONE transaction; the status of each (a journey gone,
-  // finished, or a sequence that is not next: NOT_FOUND, FAILED_PRECONDITION, OUT_OF_RANGE for that
-  // one only). When the transaction itself fails, every entry has its error and nothing is stored.
+  // NOT_FOUND.
+  virtual absl::Status SetReaders(const std::string& name,
+                                  const std::vector<std::string>& readers) = 0;
+  // Appends to any number of journeys in one transaction. Returns a status each: NOT_FOUND
+  // (deleted), FAILED_PRECONDITION (finished), OUT_OF_RANGE (the sequence is not the next) concern
+  // one append. If the transaction fails, every append has its error and nothing is stored.
   virtual std::vector<absl::Status> AppendSteps(const std::vector<JourneyAppend>& appends) = 0;
   // The map as stored. NOT_FOUND, DATA_LOSS.
   virtual absl::StatusOr<JourneyMap> LoadMap(const std::string& name) = 0;
-  // What recording goes on from; takes as long however long the journey is. NOT_FOUND, DATA_LOSS.
+  // State needed to resume recording; O(1) in journey length. NOT_FOUND, DATA_LOSS.
   virtual absl::StatusOr<JourneyTail> LoadTail(const std::string& name) = 0;
-  // A whole journey at once, finished. ALREADY_EXISTS, INVALID_ARGUMENT.
+  // Stores a whole journey, finished. ALREADY_EXISTS, INVALID_ARGUMENT.
   virtual absl::Status ImportJourney(const JourneyRecord& record, const JourneyMap& map) = 0;
 
-  // How the last write fared: OK, or the fault of the store that it met (no room, no access, the
-  // disk does not answer). A store that was opened read-only is well.
+  // The result of the last write: OK, or the fault of the store (no space, no access, the disk does
+  // not answer). OK for a read-only store.
   virtual absl::Status WriteHealth() { return absl::OkStatus(); }
-  // Writes a little that changes nothing, to find out. Returns WriteHealth.
+  // Tests with a small write that changes nothing. Returns WriteHealth.
   virtual absl::Status ProbeWrite() { return absl::OkStatus(); }
   virtual bool read_only() const { return false; }
 
-  // A copy of the whole as of one moment, checked; it takes room beside the file until it is let go
-  // of. FAILED_PRECONDITION (in memory, or read-only: the file itself may be copied), ABORTED
-  // (another copy is being made), RESOURCE_EXHAUSTED.
+  // A checked copy of the whole store as of one moment. It takes disk space until the stream is
+  // destroyed. FAILED_PRECONDITION (in memory; or read-only, where the file itself may be copied),
+  // ABORTED (another copy is being made), RESOURCE_EXHAUSTED.
   virtual absl::StatusOr<std::unique_ptr<std::istream>> BackUp() {
     return absl::FailedPreconditionError("store: it cannot be copied");
   }
@@ -121,14 +125,14 @@ class JourneyStore {
 };
 
 struct StoreOptions {
-  // "sqlite:PATH"; the file is made if it does not exist. "sqlite::memory:" for tests.
+  // "sqlite:PATH"; the file is created if missing. "sqlite::memory:" for tests.
   std::string url = "sqlite:homing.db";
   // How long to wait for a lock, ms.
   int busy_timeout_ms = 5000;
-  // Most that the file may grow to, bytes; a write beyond it is RESOURCE_EXHAUSTED. 0: no limit.
+  // Largest size of the file, bytes; a write beyond it is RESOURCE_EXHAUSTED. 0: no limit.
   std::int64_t max_bytes = 0;
-  // Changes no byte of the file and needs no write access to where it lies. The file must have been
-  // closed well and be of this program's schema.
+  // Changes no byte of the file, and needs no write access to its folder. The file must have been
+  // closed cleanly and have this program's schema.
   bool read_only = false;
 };
 

@@ -81,8 +81,8 @@ absl::StatusOr<JourneyTail> ReadTail(Connection& connection, const JourneyRow& j
   return tail;
 }
 
-// The mean spread of a landmark stands for that of each of its steps: a running mean of equal
-// values is that value, to the bit.
+// Each step gets the landmark's mean spread: a running mean of equal values is that value, to the
+// bit.
 void WriteMap(Connection& connection, std::int64_t journey_id, const JourneyMap& map) {
   for (std::int64_t number = 0; number < map.step_count(); ++number) {
     JourneyStep step;

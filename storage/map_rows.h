@@ -1,5 +1,5 @@
 // Whole maps from and to the rows of `steps`. Used in the body of a
-// transaction; throws SQLite::Exception, which ends the transaction. Source: own design.
+// transaction; throws SQLite::Exception, which ends the transaction.
 #ifndef STORAGE_MAP_ROWS_H_
 #define STORAGE_MAP_ROWS_H_
 
@@ -14,7 +14,7 @@ namespace homing::storage {
 absl::StatusOr<JourneyMap> ReadMap(Connection& connection, const JourneyRow& journey);
 // As JourneyStore::LoadTail. DATA_LOSS.
 absl::StatusOr<JourneyTail> ReadTail(Connection& connection, const JourneyRow& journey);
-// All rows of a journey that has none yet.
+// Writes all rows of a journey that has none.
 void WriteMap(Connection& connection, std::int64_t journey_id, const JourneyMap& map);
 
 }  // namespace homing::storage

@@ -1,5 +1,5 @@
 // Rows of the table `deviation_models`. Used in the body of a transaction; throws
-// SQLite::Exception, which ends the transaction. Source: own design.
+// SQLite::Exception, which ends the transaction.
 #ifndef STORAGE_MODEL_ROWS_H_
 #define STORAGE_MODEL_ROWS_H_
 

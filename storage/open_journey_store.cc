@@ -1,9 +1,10 @@
-// Opening: URL, file, schema, durability.
+// Opens a store: URL, file, schema, durability.
 #include <algorithm>
 
 #include "absl/strings/str_cat.h"
 #include "homing/base/status_macros.h"
 #include "storage/connection.h"
+#include "storage/database_url.h"
 #include "storage/journey_store.h"
 #include "storage/query_connections.h"
 #include "storage/schema.h"
@@ -12,21 +13,11 @@
 namespace homing::storage {
 namespace {
 
-constexpr char kScheme[] = "sqlite:";
 constexpr char kInMemory[] = ":memory:";
-// Readers beside the writer.
+// Connections that read while the writer writes.
 constexpr int kMaxQueryConnections = 4;
 
-absl::StatusOr<std::string> PathOf(const std::string& url) {
-  const std::string scheme = kScheme;
-  if (url.size() <= scheme.size() || url.compare(0, scheme.size(), scheme) != 0) {
-    return absl::InvalidArgumentError(
-        absl::StrCat("database is '", url, "': must be sqlite:PATH or sqlite::memory:"));
-  }
-  return url.substr(scheme.size());
-}
-
-// Every commit is on disk when it returns; the log of the last commits does not grow for ever.
+// Makes every commit durable when it returns, and bounds the log.
 absl::Status MakeDurable(Connection& connection, const std::string& path) {
   return connection.Run([&]() -> absl::Status {
     const std::string mode = connection.Text("PRAGMA journal_mode=WAL");
@@ -36,7 +27,7 @@ absl::Status MakeDurable(Connection& connection, const std::string& path) {
     }
     connection.Execute("PRAGMA synchronous=FULL");
     connection.Execute("PRAGMA journal_size_limit=67108864");
-    // KiB: a thousand journeys that grow have some fifteen hundred pages in use.
+    // KiB: a thousand growing journeys use about 1,500 pages.
     connection.Execute("PRAGMA cache_size=-6144");
     return absl::OkStatus();
   });
@@ -52,13 +43,13 @@ absl::Status LimitSize(Connection& connection, std::int64_t max_bytes) {
   });
 }
 
-// A server that was stopped leaves no log, or an empty one.
+// A server that stopped cleanly leaves no log, or an empty one.
 absl::Status CheckClosedWell(const std::string& path) {
   if (!HasLog(path)) return absl::OkStatus();
-  return absl::FailedPreconditionError(
-      absl::StrCat("store: '", path,
-                   "-wal' holds what is not yet in the file, which was not closed well: start "
-                   "homing-server on it once without --readonly, or take a backup"));
+  return absl::FailedPreconditionError(absl::StrCat(
+      "store: '", path,
+      "-wal' holds pages that are not in the file, which was not closed cleanly: start "
+      "homing-server on it once without --readonly, or make a backup"));
 }
 
 absl::StatusOr<std::unique_ptr<JourneyStore>> OpenReadOnly(const std::string& path,
@@ -78,7 +69,7 @@ absl::StatusOr<std::unique_ptr<JourneyStore>> OpenReadOnly(const std::string& pa
 }  // namespace
 
 absl::StatusOr<std::unique_ptr<JourneyStore>> OpenJourneyStore(const StoreOptions& options) {
-  HOMING_ASSIGN_OR_RETURN(const std::string path, PathOf(options.url));
+  HOMING_ASSIGN_OR_RETURN(const std::string path, ParseDatabaseUrl(options.url));
   if (options.read_only && path != kInMemory) return OpenReadOnly(path, options);
   HOMING_ASSIGN_OR_RETURN(
       std::unique_ptr<Connection> writer,

@@ -1,19 +1,18 @@
-// Read-only connections for queries, which run beside the writer (WAL). Source: own design.
+// Read-only connections for queries, which run beside the writer (WAL).
 #ifndef STORAGE_QUERY_CONNECTIONS_H_
 #define STORAGE_QUERY_CONNECTIONS_H_
 
-#include <condition_variable>
 #include <memory>
-#include <mutex>
 #include <string>
 #include <vector>
 
 #include "absl/status/status.h"
+#include "homing/base/mutex.h"
 #include "storage/connection.h"
 
 namespace homing::storage {
 
-// Thread-safe. Connections are opened when needed and kept; who finds all in use waits.
+// Thread-safe. Opens connections on demand and keeps them; a caller waits while all are in use.
 class QueryConnections {
  public:
   QueryConnections(std::string path, Connection::Access access, int busy_timeout_ms,
@@ -23,7 +22,7 @@ class QueryConnections {
         busy_timeout_ms_(busy_timeout_ms),
         unopened_(max_connections) {}
 
-  // Runs `body` in a read transaction of a connection that no one else uses meanwhile.
+  // Runs `body` in a read transaction, with exclusive use of a connection.
   absl::Status Read(const std::function<absl::Status(Connection&)>& body);
 
  private:
@@ -33,11 +32,10 @@ class QueryConnections {
   const std::string path_;
   const Connection::Access access_;
   const int busy_timeout_ms_;
-  std::mutex mutex_;
-  std::condition_variable given_back_;
-  // Both guarded by mutex_.
-  int unopened_;
-  std::vector<std::unique_ptr<Connection>> free_;
+  Mutex mutex_;
+  ConditionVariable given_back_;
+  int unopened_ HOMING_GUARDED_BY(mutex_);
+  std::vector<std::unique_ptr<Connection>> free_ HOMING_GUARDED_BY(mutex_);
 };
 
 }  // namespace homing::storage

@@ -1,4 +1,4 @@
-// Words of the tables for the enumerations of homing. Source: own design.
+// The enumerations' words in the tables.
 #ifndef STORAGE_ROW_WORDS_H_
 #define STORAGE_ROW_WORDS_H_
 

@@ -79,7 +79,7 @@ CREATE VIEW journey_fingerprints AS
   JOIN landmarks l ON l.journey_id = j.journey_id AND l.landmark = f.landmark;
 )sql";
 
-// From version 1 to 2: flow profiles. Journeys recorded before have none.
+// From version 1 to 2: flow profiles. Older journeys have none.
 constexpr char kVersion2[] = R"sql(
 -- profile_id = journey_id * 2^27 + step * 4 + side (0 left, 1 right). cells: twelve bytes with a bit
 -- a cell that is not 0, then those cells.
@@ -97,10 +97,10 @@ CREATE TRIGGER journey_profiles_deleted AFTER DELETE ON journeys BEGIN
 END;
 )sql";
 
-// From version 2 to 3: a step is one row, in one page, where it was up to ten rows in three tables
-// (docs/decisions/0036). What landmarks had of their own is the mean of what their steps have. The
-// settings, ten times as long as the rest of a journey's row, which changes with each step, move
-// away from it.
+// From version 2 to 3: a step is one row in one page; it was up to ten rows in three tables
+// (docs/decisions). A landmark's own values become those of each of its steps. The settings move to
+// another table: they are ten times as long as the rest of a journey's row, which changes with each
+// step.
 constexpr char kVersion3[] = R"sql(
 DROP VIEW journey_landmarks;
 DROP VIEW journey_fingerprints;
@@ -206,7 +206,7 @@ UPDATE steps SET sequence = sequence + 1
 WHERE step_id >> 25 NOT IN (SELECT journey_id FROM journeys WHERE input = 'FLOW_VECTORS');
 )sql";
 
-// kMigrations[v] goes from version v to v + 1. Never changed once released.
+// kMigrations[v] migrates from version v to v + 1. A released migration never changes.
 constexpr std::array<const char*, kSchemaVersion> kMigrations = {kVersion1, kVersion2, kVersion3,
                                                                  kVersion4};
 
@@ -243,7 +243,7 @@ absl::Status CheckSchema(Connection& connection) {
     if (version == kSchemaVersion) return absl::OkStatus();
     return absl::FailedPreconditionError(absl::StrCat(
         "store: schema version is ", version, ", older than this program's ", kSchemaVersion,
-        ": start homing-server on it once, not read-only, to bring it up to date"));
+        ": start homing-server on it once, not read-only, to migrate it"));
   });
 }
 

@@ -1,4 +1,4 @@
-// Tables of the store and their versions (docs/storage-format.md). Source: own design.
+// Tables of the store and their versions (docs/storage-format.md).
 #ifndef STORAGE_SCHEMA_H_
 #define STORAGE_SCHEMA_H_
 
@@ -14,18 +14,17 @@ inline constexpr std::int64_t kApplicationId = 0x484F4D49;
 // `PRAGMA user_version` that this program writes.
 inline constexpr std::int64_t kSchemaVersion = 4;
 
-// Makes the tables of an empty file, or brings those of an older version up to date, in one
-// transaction. FAILED_PRECONDITION: a newer version, or another program's file.
+// Creates the tables in an empty file, or migrates those of an older version, in one transaction.
+// FAILED_PRECONDITION: a newer version, or another program's file.
 absl::Status Migrate(Connection& connection);
 
 // Without a transaction. FAILED_PRECONDITION: another program's file, or a newer version.
 absl::Status CheckOwnFile(Connection& connection);
 
-// For a file that may not be changed. FAILED_PRECONDITION: another version, or another program's
-// file.
+// For a file that must not change. FAILED_PRECONDITION: another version, or another program's file.
 absl::Status CheckSchema(Connection& connection);
 
-// In a body. Writes the version that is there: a page, and no change.
+// In a body. Rewrites the stored version: a write of one page without a change.
 absl::Status TouchSchemaVersion(Connection& connection);
 
 }  // namespace homing::storage

@@ -15,7 +15,7 @@ using Json = nlohmann::json;
 template <typename T, typename Options>
 concept Is = std::same_as<std::remove_const_t<T>, Options>;
 
-// Names and fields of each struct, once for writing and reading.
+// Names and fields of each struct, used by writing and reading.
 template <Is<Intrinsics> T, typename Visit>
 void VisitFields(T& intrinsics, Visit visit) {
   visit("focal_x", intrinsics.focal_x);

@@ -1,5 +1,4 @@
 // Settings as canonical JSON text: keys sorted, no blanks, numbers that read back to the same bits.
-// Source: own design.
 #ifndef STORAGE_SETTINGS_JSON_H_
 #define STORAGE_SETTINGS_JSON_H_
 

@@ -1,6 +1,9 @@
 #include "storage/sqlite_journey_store.h"
 
+#include <algorithm>
+
 #include "absl/strings/str_cat.h"
+#include "homing/base/mutex.h"
 #include "homing/base/status_macros.h"
 #include "storage/backup.h"
 #include "storage/journey_rows.h"
@@ -10,10 +13,30 @@
 #include "storage/sqlite_status.h"
 
 namespace homing::storage {
+namespace {
+
+// Of SQLite's log: its header, and what each page has before it.
+constexpr std::int64_t kLogHeaderBytes = 32;
+constexpr std::int64_t kLogFrameBytes = 24;
+// As journal_size_limit: a longer log is cut by SQLite itself.
+constexpr std::int64_t kLogKeptBytes = 67'108'864;
+// Between two checks of a damaged file, at least.
+constexpr std::chrono::seconds kCheckEvery{10};
+
+}  // namespace
 
 absl::Status SqliteJourneyStore::StartCheckpoints(int busy_timeout_ms) {
   HOMING_ASSIGN_OR_RETURN(
       checkpointer_, Checkpointer::Start(path_, writer_.get(), &write_mutex_, busy_timeout_ms));
+  {
+    const MutexLock lock(write_mutex_);
+    Connection& writer = *writer_;
+    HOMING_RETURN_IF_ERROR(writer.Run([&] {
+      page_bytes_ = writer.Integer("PRAGMA page_size");
+      return absl::OkStatus();
+    }));
+  }
+  files_ = std::make_unique<FileIdentity>(path_);
   return absl::OkStatus();
 }
 
@@ -22,12 +45,33 @@ absl::Status SqliteJourneyStore::Transact(const Body& body) {
     return absl::FailedPreconditionError(
         "store: it is read-only (--readonly): nothing can be recorded, changed or deleted");
   }
-  std::lock_guard lock(write_mutex_);
-  const int changes = writer_->changes();
-  absl::Status status = writer_->Write([&] { return body(*writer_); });
+  const MutexLock lock(write_mutex_);
+  HOMING_RETURN_IF_ERROR(CheckFiles());
+  Connection& writer = *writer_;
+  const int changes = writer.changes();
+  absl::Status status = writer.Write([&] { return body(writer); });
   if (!status.ok()) appends_.Forget();
-  NoteHealth(status, writer_->changes() != changes);
+  NoteHealth(status, writer.changes() != changes);
+  if (!status.ok() || files_ == nullptr) return status;
+  NoteLogPages(checkpointer_->pages_in_log());
+  // What was written into a file that was taken away is not stored.
+  status = CheckFiles();
+  if (!status.ok()) appends_.Forget();
   return status;
+}
+
+void SqliteJourneyStore::NoteLogPages(int pages) {
+  const std::int64_t bytes = kLogHeaderBytes + pages * (page_bytes_ + kLogFrameBytes);
+  files_->SetLogBytes(pages == 0 ? 0 : std::min(bytes, kLogKeptBytes));
+}
+
+absl::Status SqliteJourneyStore::CheckFiles() {
+  if (files_ == nullptr) return absl::OkStatus();
+  // A tool of SQLite that reads the file may move the log into it.
+  if (files_->IsLogCut()) {
+    if (const int pages = checkpointer_->CountPagesInLog(); pages >= 0) NoteLogPages(pages);
+  }
+  return files_->Check();
 }
 
 absl::Status SqliteJourneyStore::Write(const Body& body) {
@@ -40,27 +84,58 @@ absl::Status SqliteJourneyStore::Write(const Body& body) {
 void SqliteJourneyStore::NoteHealth(const absl::Status& written, bool changed) {
   const bool fault = IsStoreFault(written);
   if (!fault && !(written.ok() && changed)) return;
-  const std::lock_guard lock(health_mutex_);
+  const MutexLock lock(health_mutex_);
+  // A part that can be written does not heal another that is damaged.
+  if (!fault && absl::IsDataLoss(write_health_)) return;
   write_health_ = fault ? written : absl::OkStatus();
 }
 
 absl::Status SqliteJourneyStore::WriteHealth() {
-  const std::lock_guard lock(health_mutex_);
+  HOMING_RETURN_IF_ERROR(CheckFiles());
+  const MutexLock lock(health_mutex_);
   return write_health_;
 }
 
+bool SqliteJourneyStore::IsHealed() {
+  const auto begin = std::chrono::steady_clock::now();
+  if (begin < next_check_) return false;
+  bool good = false;
+  const auto connection = OpenForReading(path_, kBusyTimeoutMs);
+  const absl::Status status = !connection.ok() ? connection.status() : (*connection)->Run([&] {
+    good = (*connection)->Text("PRAGMA quick_check(1)") == "ok";
+    return absl::OkStatus();
+  });
+  const auto end = std::chrono::steady_clock::now();
+  next_check_ =
+      end + std::max<std::chrono::steady_clock::duration>(kCheckEvery, 10 * (end - begin));
+  return good && status.ok();
+}
+
 absl::Status SqliteJourneyStore::ProbeWrite() {
+  HOMING_RETURN_IF_ERROR(CheckFiles());
+  if (const absl::Status health = WriteHealth(); absl::IsDataLoss(health)) {
+    if (!IsHealed()) return health;
+    const MutexLock lock(health_mutex_);
+    write_health_ = absl::OkStatus();
+  }
   if (!read_only()) {
-    const std::lock_guard lock(write_mutex_);
-    NoteHealth(writer_->Write([&] { return TouchSchemaVersion(*writer_); }), true);
+    const MutexLock lock(write_mutex_);
+    Connection& writer = *writer_;
+    NoteHealth(writer.Write([&] { return TouchSchemaVersion(writer); }), true);
   }
   return WriteHealth();
 }
 
 absl::Status SqliteJourneyStore::Read(const Body& body) {
-  if (queries_) return queries_->Read(body);
-  std::lock_guard lock(write_mutex_);
-  return writer_->Read([&] { return body(*writer_); });
+  HOMING_RETURN_IF_ERROR(CheckFiles());
+  if (queries_) {
+    absl::Status status = queries_->Read(body);
+    if (IsStoreFault(status) && absl::IsDataLoss(status)) NoteHealth(status, false);
+    return status;
+  }
+  const MutexLock lock(write_mutex_);
+  Connection& writer = *writer_;
+  return writer.Read([&] { return body(writer); });
 }
 
 template <typename Result, typename Query>
@@ -107,6 +182,12 @@ absl::Status SqliteJourneyStore::FinishJourney(const std::string& name) {
 absl::Status SqliteJourneyStore::SetWriter(const std::string& name, const std::string& writer_id) {
   return Write(
       [&](Connection& connection) { return SetJourneyWriter(connection, name, writer_id); });
+}
+
+absl::Status SqliteJourneyStore::SetReaders(const std::string& name,
+                                            const std::vector<std::string>& readers) {
+  return Write(
+      [&](Connection& connection) { return SetJourneyReaders(connection, name, readers); });
 }
 
 std::vector<absl::Status> SqliteJourneyStore::AppendSteps(
@@ -157,11 +238,12 @@ absl::StatusOr<std::unique_ptr<std::istream>> SqliteJourneyStore::BackUp() {
                      read_only() ? "read-only: its file itself may be copied"
                                  : "in memory and cannot be copied"));
   }
-  const std::unique_lock lock(backup_mutex_, std::try_to_lock);
-  if (!lock) {
+  if (backing_up_.exchange(true)) {
     return absl::AbortedError("store: another copy is being made; try again when it is done");
   }
-  return CopyForReading(path_, path_ + "-backup");
+  absl::StatusOr<std::unique_ptr<std::istream>> copy = CopyForReading(path_, path_ + "-backup");
+  backing_up_ = false;
+  return copy;
 }
 
 absl::Status SqliteJourneyStore::CreateModel(const StoredModel& model) {

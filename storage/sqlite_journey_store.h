@@ -1,15 +1,18 @@
-// The store on SQLite: one connection writes, others read beside it. Source: own design.
+// The store on SQLite: one connection writes while others read.
 #ifndef STORAGE_SQLITE_JOURNEY_STORE_H_
 #define STORAGE_SQLITE_JOURNEY_STORE_H_
 
+#include <atomic>
+#include <chrono>
 #include <functional>
 #include <memory>
-#include <mutex>
 #include <string>
 #include <vector>
 
+#include "homing/base/mutex.h"
 #include "storage/checkpointer.h"
 #include "storage/connection.h"
+#include "storage/file_identity.h"
 #include "storage/journey_store.h"
 #include "storage/query_connections.h"
 #include "storage/step_appends.h"
@@ -19,8 +22,8 @@ namespace homing::storage {
 
 class SqliteJourneyStore final : public JourneyStore {
  public:
-  // `lock` and `queries` are null for a store in memory, which only its one connection sees;
-  // `writer` is null for a read-only one.
+  // `lock` and `queries` are null for a store in memory, which has one connection. `writer` is null
+  // for a read-only store.
   SqliteJourneyStore(std::string path, std::unique_ptr<StoreLock> lock,
                      std::unique_ptr<Connection> writer, std::unique_ptr<QueryConnections> queries)
       : path_(std::move(path)),
@@ -40,6 +43,8 @@ class SqliteJourneyStore final : public JourneyStore {
   absl::Status DeleteJourney(const std::string& name) override;
   absl::Status FinishJourney(const std::string& name) override;
   absl::Status SetWriter(const std::string& name, const std::string& writer_id) override;
+  absl::Status SetReaders(const std::string& name,
+                          const std::vector<std::string>& readers) override;
   std::vector<absl::Status> AppendSteps(const std::vector<JourneyAppend>& appends) override;
   absl::StatusOr<JourneyMap> LoadMap(const std::string& name) override;
   absl::StatusOr<JourneyTail> LoadTail(const std::string& name) override;
@@ -54,32 +59,39 @@ class SqliteJourneyStore final : public JourneyStore {
 
  private:
   using Body = std::function<absl::Status(Connection&)>;
-  // In one transaction: what changes more than appends do, which then read their rows again.
+  // Runs `body` in one transaction and clears the rows that appends keep: for all writes but
+  // appends.
   absl::Status Write(const Body& body);
   absl::Status Transact(const Body& body);
-  // REQUIRES write_mutex_.
+  // The files are those that were opened. A store in memory has none.
+  absl::Status CheckFiles();
+  void NoteLogPages(int pages);
+  // After damage: the whole file passes SQLite's check again. Tries it now and then.
+  bool IsHealed();
   void NoteHealth(const absl::Status& written, bool changed);
   absl::Status Read(const Body& body);
-  // What `query` gives in one read transaction.
+  // The result of `query` in one read transaction.
   template <typename Result, typename Query>
   absl::StatusOr<Result> ReadOne(Query query);
 
   const std::string path_;
-  // Let go of last.
+  // Released last.
   const std::unique_ptr<StoreLock> lock_;
-  std::mutex write_mutex_;
-  // Guarded by write_mutex_, the pointer apart.
-  const std::unique_ptr<Connection> writer_;
-  // Guarded by write_mutex_.
+  Mutex write_mutex_;
+  const std::unique_ptr<Connection> writer_ HOMING_PT_GUARDED_BY(write_mutex_);
+  // Bodies of Write and AppendSteps use it: they run with write_mutex_ held.
   StepAppends appends_;
-  std::mutex health_mutex_;
-  // Guarded by health_mutex_, so that asking never waits for a write.
-  absl::Status write_health_;
+  Mutex health_mutex_;
+  // Has its own mutex, so that reading it never waits for a write.
+  absl::Status write_health_ HOMING_GUARDED_BY(health_mutex_);
+  std::chrono::steady_clock::time_point next_check_;
+  std::unique_ptr<FileIdentity> files_;
+  std::int64_t page_bytes_ = 0;
   std::unique_ptr<QueryConnections> queries_;
-  // Ends before the writer.
+  // Must end before the writer.
   std::unique_ptr<Checkpointer> checkpointer_;
-  // While a copy is being made.
-  std::mutex backup_mutex_;
+  // A copy is being made.
+  std::atomic<bool> backing_up_ = false;
 };
 
 }  // namespace homing::storage

@@ -25,14 +25,14 @@ absl::StatusCode ConstraintCode(int extended) {
   }
 }
 
-// A disk that does not answer may answer again: the caller tries later.
+// The disk may answer later: the caller should retry.
 absl::StatusCode IoErrorCode(int extended) {
   switch (extended) {
     case SQLITE_IOERR_NOMEM:
-    // The index of the log finds no room.
+    // The index of the log needs more space.
     case SQLITE_IOERR_SHMSIZE:
       return absl::StatusCode::kResourceExhausted;
-    // A checksum is wrong. (SQLITE_IOERR_CORRUPTFS is what EIO on a read becomes.)
+    // A checksum is wrong. (EIO on a read becomes SQLITE_IOERR_CORRUPTFS.)
     case SQLITE_IOERR_DATA:
       return absl::StatusCode::kDataLoss;
     default:
@@ -81,6 +81,12 @@ absl::StatusCode CodeOf(int code) {
 absl::Status StatusFromSqlite(int code, const std::string& message) {
   absl::Status status(CodeOf(code), absl::StrCat("store: ", message, " (SQLite code ", code, ")"));
   if (IsFault(code)) status.SetPayload(kFaultUrl, absl::Cord(absl::StrCat(code)));
+  return status;
+}
+
+absl::Status StoreFault(absl::StatusCode code, const std::string& message) {
+  absl::Status status(code, message);
+  status.SetPayload(kFaultUrl, absl::Cord("0"));
   return status;
 }
 

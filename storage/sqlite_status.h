@@ -1,4 +1,4 @@
-// The one place where SQLite's codes become a Status. Source: own design.
+// Converts SQLite's result codes to absl::Status. No other place does.
 #ifndef STORAGE_SQLITE_STATUS_H_
 #define STORAGE_SQLITE_STATUS_H_
 
@@ -13,8 +13,9 @@ namespace homing::storage {
 // `code` is a primary or extended result code of SQLite other than SQLITE_OK.
 absl::Status StatusFromSqlite(int code, const std::string& message);
 absl::Status StatusFromException(const SQLite::Exception& exception);
-// Whether `status` came from here and the store is to blame (full, unreadable, locked), not what
-// was asked of it.
+// A fault of the store that SQLite does not know of.
+absl::Status StoreFault(absl::StatusCode code, const std::string& message);
+// `status` was made here, and the store is at fault (full, unreadable, locked), not the request.
 bool IsStoreFault(const absl::Status& status);
 
 }  // namespace homing::storage

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "absl/strings/str_cat.h"
+#include "homing/base/field_error.h"
 #include "homing/base/status_macros.h"
 #include "storage/journey_rows.h"
 #include "storage/row_words.h"
@@ -27,42 +28,39 @@ constexpr char kUpdate[] =
 // Two a camera (paper III).
 constexpr int kMaxFingerprintsPerSide = 2;
 constexpr double kMaxSpread = 1e9;
-// Journeys kept from one transaction to the next; a few hundred bytes each.
+// Journeys kept between transactions; a few hundred bytes each.
 constexpr std::size_t kMostKept = 4096;
 
 absl::Status CheckValues(const RecordedFingerprint& recorded) {
   const Fingerprint& fingerprint = recorded.fingerprint;
   if (!std::isfinite(fingerprint.x) || !std::isfinite(fingerprint.y)) {
-    return absl::InvalidArgumentError(absl::StrCat("mean of landmark ", fingerprint.landmark,
-                                                   " is (", fingerprint.x, ", ", fingerprint.y,
-                                                   "): must be finite"));
+    return MustBe(absl::StrCat("mean of landmark ", fingerprint.landmark),
+                  absl::StrCat("(", fingerprint.x, ", ", fingerprint.y, ")"), "finite");
   }
   if (!(recorded.spread >= 0 && recorded.spread <= kMaxSpread)) {
-    return absl::InvalidArgumentError(absl::StrCat("spread of landmark ", fingerprint.landmark,
-                                                   " is ", recorded.spread, ": must be 0 to ",
-                                                   kMaxSpread));
+    return MustBe(absl::StrCat("spread of landmark ", fingerprint.landmark), recorded.spread,
+                  absl::StrCat("in [0, ", kMaxSpread, "]"));
   }
   if (fingerprint.count <= 0) {
-    return absl::InvalidArgumentError(absl::StrCat("count of landmark ", fingerprint.landmark,
-                                                   " is ", fingerprint.count,
-                                                   ": must be at least 1"));
+    return MustBe(absl::StrCat("count of landmark ", fingerprint.landmark), fingerprint.count,
+                  "at least 1");
   }
   return absl::OkStatus();
 }
 
-// Left before right, at most two on a side.
+// Checks the order: left before right, at most two on a side.
 absl::Status CheckOrder(const JourneyStep& step) {
   int left = 0;
   int right = 0;
   for (const RecordedFingerprint& recorded : step.fingerprints) {
     const bool is_left = recorded.side == Side::kLeft;
     if (is_left && right > 0) {
-      return absl::InvalidArgumentError(
-          absl::StrCat("step ", step.step, " has right before left: left must come first"));
+      return FieldError("fingerprints",
+                        absl::StrCat("of step ", step.step, " must have left before right"));
     }
     if (++(is_left ? left : right) > kMaxFingerprintsPerSide) {
-      return absl::InvalidArgumentError(absl::StrCat(
-          "step ", step.step, " has over ", kMaxFingerprintsPerSide, " fingerprints on one side"));
+      return FieldError("fingerprints", absl::StrCat("of step ", step.step, " must be at most ",
+                                                     kMaxFingerprintsPerSide, " on one side"));
     }
   }
   return absl::OkStatus();
@@ -115,7 +113,7 @@ absl::Status StepAppends::CheckContinues(const JourneyColumns& journey,
   return absl::OkStatus();
 }
 
-// Landmarks must be known with that side, or come next in number; each once.
+// Each landmark appears once, and is known with that side or has the next number.
 absl::Status StepAppends::CheckLandmark(JourneyColumns& journey,
                                         const RecordedFingerprint& recorded,
                                         std::set<std::int32_t>& seen) {
@@ -123,15 +121,13 @@ absl::Status StepAppends::CheckLandmark(JourneyColumns& journey,
   const auto first_new = seen.lower_bound(journey.landmark_count);
   const std::int64_t due = journey.landmark_count + std::distance(first_new, seen.end());
   if (landmark < 0 || landmark > due || !seen.insert(landmark).second) {
-    return absl::InvalidArgumentError(
-        absl::StrCat("landmark is ", landmark, ": must be once in a step, and 0 to ", due));
+    return MustBe("landmark", landmark, absl::StrCat("in [0, ", due, "], once in a step"));
   }
   if (landmark >= journey.landmark_count) return absl::OkStatus();
   HOMING_ASSIGN_OR_RETURN(const Side side, SideOf(journey, landmark));
   if (side != recorded.side) {
-    return absl::InvalidArgumentError(absl::StrCat("side of landmark ", landmark, " is ",
-                                                   Word(recorded.side), ": it was met on the ",
-                                                   Word(side)));
+    return MustBe(absl::StrCat("side of landmark ", landmark), Word(recorded.side),
+                  absl::StrCat(Word(side), ", where it was met"));
   }
   return absl::OkStatus();
 }
@@ -140,8 +136,7 @@ absl::Status StepAppends::CheckStep(JourneyColumns& journey, const JourneyStep& 
                                     std::int64_t sequence) {
   const std::int64_t last = std::min(sequence, kMostSteps - 1);
   if (step.step < journey.step_count || step.step > last) {
-    return absl::InvalidArgumentError(
-        absl::StrCat("step is ", step.step, ": must be ", journey.step_count, " to ", last));
+    return MustBe("step", step.step, absl::StrCat("in [", journey.step_count, ", ", last, "]"));
   }
   const std::int64_t least = journey.last_sequence + 1 + step.step - journey.step_count;
   if (step.sequence != kNextSequence && step.sequence < least) {
@@ -172,7 +167,8 @@ void StepAppends::AddStep(JourneyColumns& journey, const JourneyAppend& append) 
   journey.last_sequence = step.sequence == kNextSequence ? following : step.sequence;
   journey.step_count = step.step + 1;
   journey.new_fingerprints += static_cast<std::int64_t>(step.fingerprints.size());
-  // An observation without a step has no say: frames and the flow between them then agree.
+  // An observation without a step does not change the times, so that frames and the flow between
+  // them agree.
   if (append.capture_time_ns != 0) {
     journey.last_time_ns = append.capture_time_ns;
     if (journey.first_time_ns == 0) journey.first_time_ns = append.capture_time_ns;

@@ -1,5 +1,5 @@
 // Appending steps to `journeys` and `steps`. Used in the body of a transaction;
-// throws SQLite::Exception, which ends the transaction. Source: own design.
+// throws SQLite::Exception, which ends the transaction.
 #ifndef STORAGE_STEP_APPENDS_H_
 #define STORAGE_STEP_APPENDS_H_
 
@@ -18,23 +18,23 @@
 
 namespace homing::storage {
 
-// Appends of one transaction after another. What each changes again and again, a journey's row, is
-// read once, written once a transaction and kept for the next.
+// The appends of successive transactions. A journey's row changes with each append: it is read
+// once, written once a transaction, and kept for the next one.
 class StepAppends {
  public:
   explicit StepAppends(Connection* connection) : connection_(connection) {}
 
-  // Checks all first; after an error nothing of this append is written. NOT_FOUND,
-  // FAILED_PRECONDITION (finished, other input), OUT_OF_RANGE (sequence not next), INVALID_ARGUMENT
-  // (a step that does not continue the journey).
+  // Checks everything first; after an error nothing of this append is written. NOT_FOUND,
+  // FAILED_PRECONDITION (finished, other input), OUT_OF_RANGE (the sequence is not the next),
+  // INVALID_ARGUMENT (the step does not continue the journey).
   absl::Status Append(const JourneyAppend& append);
-  // The rows that were held back. Once in a transaction, after the last append.
+  // Writes the changed journeys' rows. Call it once a transaction, after the last append.
   void Write();
-  // What is kept may not be what is stored: a transaction failed, or another than this wrote.
+  // Clears the kept rows: a transaction failed, or other code wrote.
   void Forget();
 
  private:
-  // A row of `journeys`, as far as appending needs it.
+  // The part of a row of `journeys` that appending needs.
   struct JourneyColumns {
     std::int64_t id = 0;
     JourneyState state = JourneyState::kActive;
@@ -45,9 +45,9 @@ class StepAppends {
     // JourneyStep::sequence of the last step; -1: none.
     std::int64_t last_sequence = -1;
     std::int32_t landmark_count = 0;
-    // Of the landmarks of the last step, and of others.
+    // The landmarks of the last step, and some others.
     std::map<std::int32_t, Side> sides;
-    // Since the transaction began, as all below: times are 0 if none.
+    // The members below count since the transaction began; times are 0 if none.
     std::int64_t first_time_ns = 0;
     std::int64_t last_time_ns = 0;
     std::int64_t new_fingerprints = 0;
@@ -56,7 +56,7 @@ class StepAppends {
   };
 
   absl::StatusOr<JourneyColumns*> Find(const std::string& name);
-  // DATA_LOSS: it is in no step.
+  // DATA_LOSS: no step holds it.
   absl::StatusOr<Side> SideOf(JourneyColumns& journey, std::int32_t landmark);
   absl::Status CheckLandmark(JourneyColumns& journey, const RecordedFingerprint& recorded,
                              std::set<std::int32_t>& seen);

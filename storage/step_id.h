@@ -1,5 +1,5 @@
 // The key of a row of `steps`: journey and step in one integer, which keeps a journey's rows
-// together and in order. Source: own design.
+// together and in order.
 #ifndef STORAGE_STEP_ID_H_
 #define STORAGE_STEP_ID_H_
 
@@ -9,7 +9,7 @@
 
 namespace homing::storage {
 
-// The schema holds it as well.
+// The schema uses it too.
 inline constexpr int kStepBits = 25;
 static_assert(kMostSteps <= std::int64_t{1} << kStepBits);
 

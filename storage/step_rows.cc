@@ -4,6 +4,7 @@
 #include <string>
 #include <utility>
 
+#include "absl/strings/str_cat.h"
 #include "homing/base/status_macros.h"
 #include "homing/landmark/profile_code.h"
 #include "storage/step_id.h"
@@ -30,7 +31,7 @@ constexpr char kSelectLandmarksBack[] =
     "SELECT left1_landmark, left2_landmark, right1_landmark, right2_landmark FROM steps"
     " WHERE step_id >= ? AND step_id < ? ORDER BY step_id DESC";
 
-// Of a fingerprint: landmark, x, y, count, spread.
+// Columns of a fingerprint: landmark, x, y, count, spread.
 constexpr int kColumnsOfPlace = 5;
 constexpr int kPlacesOfSide = 2;
 constexpr int kFirstProfile = 1 + 2 * kPlacesOfSide * kColumnsOfPlace;
@@ -41,10 +42,15 @@ Side SideOfPlace(int place) { return Side{place / kPlacesOfSide}; }
 // Its first column in SELECT, from 0.
 int ColumnOfPlace(int place) { return 1 + place * kColumnsOfPlace; }
 
-// -1 for what no step holds.
+// -1: no step holds it.
 std::int32_t SmallInteger(Query& row, int column) {
   const std::int64_t value = row.Integer(column);
   return std::in_range<std::int32_t>(value) ? static_cast<std::int32_t>(value) : -1;
+}
+
+absl::Status HalfFingerprint(std::int64_t step) {
+  return absl::DataLossError(
+      absl::StrCat("store: step ", step, " has a fingerprint without a landmark"));
 }
 
 }  // namespace
@@ -55,7 +61,7 @@ void InsertStep(Connection& connection, std::int64_t journey_id, const JourneySt
     if (step.profiles[side]) cells[side] = EncodeProfile(*step.profiles[side]);
   }
   Query query = connection.Prepare(kInsert);
-  // What is not bound is NULL.
+  // Columns that are not bound are NULL.
   query.ClearValues();
   query.Bind(1, StepId(journey_id, step.step));
   std::array<int, 2> next_place = {0, kPlacesOfSide};
@@ -95,7 +101,12 @@ absl::StatusOr<JourneyStep> ReadStep(Query& row) {
   step.step = StepOfId(row.Integer(0));
   for (int place = 0; place < 2 * kPlacesOfSide; ++place) {
     const int column = ColumnOfPlace(place);
-    if (row.IsNull(column)) continue;
+    if (row.IsNull(column)) {
+      for (int other = 1; other < kColumnsOfPlace; ++other) {
+        if (!row.IsNull(column + other)) return HalfFingerprint(step.step);
+      }
+      continue;
+    }
     RecordedFingerprint& recorded = step.fingerprints.emplace_back();
     recorded.side = SideOfPlace(place);
     recorded.fingerprint = {static_cast<float>(row.Real(column + 1)),

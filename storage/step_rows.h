@@ -1,5 +1,5 @@
-// Rows of `steps`: what was seen at one step of a journey, all of it in one row. Used in the body
-// of a transaction; throws SQLite::Exception, which ends the transaction. Source: own design.
+// Rows of `steps`: one row holds one step of a journey. All functions run in the body of a
+// transaction and throw SQLite::Exception, which ends the transaction.
 #ifndef STORAGE_STEP_ROWS_H_
 #define STORAGE_STEP_ROWS_H_
 
@@ -19,13 +19,13 @@ void InsertStep(Connection& connection, std::int64_t journey_id, const JourneySt
 std::int64_t FindLastSequence(Connection& connection, std::int64_t journey_id,
                               std::int64_t step_count);
 
-// The rows from `first` on, in order; ReadStep takes the one that it stands on.
+// Selects the rows from `first` on, in order; ReadStep reads the current one.
 Query SelectSteps(Connection& connection, std::int64_t journey_id, std::int64_t first);
-// INVALID_ARGUMENT: no flow profile that this program writes.
+// INVALID_ARGUMENT: a flow profile of another form.
 absl::StatusOr<JourneyStep> ReadStep(Query& row);
 
-// Adds the sides of landmarks, from the last step backwards until that of `landmark` is known; all,
-// if it is in no step. As a rule one row is read.
+// Adds the sides of landmarks, from the last step backwards until that of `landmark` is known, or
+// of all landmarks if no step holds it. It mostly reads one row.
 void FindSides(Connection& connection, std::int64_t journey_id, std::int32_t landmark,
                std::map<std::int32_t, Side>& sides);
 

@@ -14,7 +14,7 @@ namespace homing::storage {
 namespace {
 
 std::string LockPath(const std::string& store_path) {
-  // A link to the store is the same store.
+  // A link to the store locks the same store.
   std::error_code error;
   const std::filesystem::path real = std::filesystem::weakly_canonical(store_path, error);
   return absl::StrCat(error ? store_path : real.string(), "-lock");

@@ -1,4 +1,4 @@
-// One server a store: what is in memory must be what is on the disk. Source: own design.
+// Lets one server use a store, because its memory must match the disk.
 #ifndef STORAGE_STORE_LOCK_H_
 #define STORAGE_STORE_LOCK_H_
 
@@ -9,15 +9,15 @@
 
 namespace homing::storage {
 
-// Holds the file beside the store, "PATH-lock", for as long as it lives; the system lets go of it
-// when the process ends, however it ends. Other programs may read the store all the while.
+// Locks the file "PATH-lock" beside the store while it lives. The system frees the lock when the
+// process ends in any way. Other programs may read the store meanwhile.
 class StoreLock {
  public:
-  // UNAVAILABLE: another process (or another store of this one) has it. FAILED_PRECONDITION: the
-  // file cannot be opened.
+  // UNAVAILABLE: another process, or another store of this process, has the lock.
+  // FAILED_PRECONDITION: the file cannot be opened.
   static absl::StatusOr<std::unique_ptr<StoreLock>> Take(const std::string& store_path);
-  // Shared with other readers; nothing is made or changed. Null: there is no such file, so that no
-  // server has used the store where it lies now. UNAVAILABLE: a process that writes has it.
+  // A lock shared with other readers; creates and changes nothing. Null: there is no lock file, so
+  // no server has used the store in this place. UNAVAILABLE: a writing process has the lock.
   static absl::StatusOr<std::unique_ptr<StoreLock>> TakeShared(const std::string& store_path);
   ~StoreLock();
   StoreLock(const StoreLock&) = delete;

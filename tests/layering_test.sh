@@ -1,13 +1,13 @@
 #!/bin/sh
-# Which folder may include which, what may appear where, and how long a file may be. Debian keeps the headers of
-# gRPC, SQLite and OpenCV in /usr/include, so that a wrong include compiles: this test is what forbids it.
+# Dependencies between folders, forbidden contents, and the length of files. Debian keeps the headers of
+# gRPC, SQLite and OpenCV in /usr/include, so that a wrong include compiles: this test forbids it.
 #   layering_test.sh [ROOT]        checks the tree
 #   layering_test.sh --self-test   plants one violation of each rule in a scratch tree and expects it to be found
 set -u
 
 max_lines=300
 
-# What one folder's files may include, its subfolders' apart: "FOLDER ALLOWED...". An allowed name that ends in a slash is
+# The includes allowed to one folder's files, without its subfolders: "FOLDER ALLOWED...". An allowed name that ends in a slash is
 # the beginning of an include, another one a folder without its subfolders. Each folder has a rule.
 below_landmark='homing/flow homing/image homing/base'
 below_journey="homing/similarity homing/landmark $below_landmark"
@@ -39,11 +39,12 @@ server/service      server/service server/rpc server/session $gates server/catal
 server/config       server/config server/access server/admission $kept grpc/health/
 server              server/ storage homing/ $messages google/rpc grpc/health/
 client/simulator    client/simulator homing/flow homing/image homing/base
-client/picture      client/picture $below_journey
+client/file         client/file
+client/picture      client/picture client/file $below_journey homing/
 client/opencv       client/opencv client homing/image homing/base
 client/bag          client/bag client homing/flow homing/image homing/base
-client              client client/bag client/simulator client/command homing/ $messages google/rpc grpc/health/
-client/command      client/command client/bag client/picture client/simulator client server/process homing/ $messages
+client              client client/bag client/file client/simulator client/command homing/ $messages google/rpc grpc/health/
+client/command      client/command client/bag client/file client/picture client/simulator client server/process homing/ $messages
 client/bench        client/bench client/command client/simulator client server/process homing/ $messages
 "
 # Folders where generated code, gRPC and Protobuf may not be seen.
@@ -104,12 +105,15 @@ check_contents() {
     forbid '.value() outside tests' '\.value\(\)' $(sources homing storage server proto client)
     forbid 'CHECK outside tests and main' '(^|[^_[:alnum:]])D?CHECK(_[A-Z]+)?\(|(^|[^_[:alnum:]])(abort|assert)\(' \
       $(sources homing storage server proto client | grep -v '/main\.cc$')
+    # Shared with storage, server and client, and closed to the method.
+    pure=$(sources homing | grep -vE '^homing/base/(mutex|file_text)\.h$')
     forbid 'a clock, chance, a file or a log in homing' \
-      'std::chrono|random_device|(^|[^_[:alnum:]])rand\(|fstream|fopen|std::(cout|cerr)|spdlog' $(sources homing)
+      'std::chrono|random_device|(^|[^_[:alnum:]])rand\(|fstream|fopen|std::(cout|cerr)|spdlog' $pure
+    forbid 'a lock or a file in the method' 'homing/base/(mutex|file_text)\.h' $(sources homing)
     # ThreadSanitizer's suite goes by this: see tests/CMakeLists.txt.
     forbid 'a thread or a lock in what knows none' \
       'std::(j?thread|async|(shared_|recursive_)?mutex|atomic|condition_variable|call_once|latch|barrier)|absl::Mutex|parallel_for_' \
-      $(sources homing client/simulator tests/homing tests/client/simulator)
+      $pure $(sources client/simulator tests/homing tests/client/simulator)
   }
 }
 
@@ -164,6 +168,7 @@ self_test() {
   plant homing/landmark/a.h 'void Draw(const cv::Mat& image);'
   plant homing/flow/a.cc 'auto now = std::chrono::steady_clock::now();'
   plant homing/journey/a.cc 'std::atomic<int> count;'
+  plant homing/journey/a.cc '#include "homing/base/mutex.h"'
   plant tests/homing/a.cc 'std::jthread other([] {});'
   plant homing/flow/a.cc 'cv::parallel_for_(range, body);'
   plant storage/a.cc '#include "server/service/journey_archive.h"'

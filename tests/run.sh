@@ -1,5 +1,5 @@
 #!/bin/sh
-# Installs what is missing, builds, and runs every test; arguments go to ctest, whose closing line
+# Installs missing packages, builds, and runs every test; arguments go to ctest, whose closing line
 # comes last. HOMING_PRESET (default dev) names the CMake preset; HOMING_DATA a folder of real
 # sequences, without which the tests that need them are skipped and say so.
 set -eu

@@ -1,4 +1,4 @@
-// The compressions of bags. Source: own design, over libzstd, liblz4 and libbz2.
+// The compressions of bags. They use libzstd, liblz4 and libbz2.
 #ifndef CLIENT_BAG_DECOMPRESSION_H_
 #define CLIENT_BAG_DECOMPRESSION_H_
 

@@ -1,5 +1,5 @@
 // Messages with images and cameras, by ROS 1, ROS 2 (CDR) and Foxglove (Protobuf). Source:
-// sensor_msgs, docs.foxglove.dev; own design.
+// sensor_msgs, docs.foxglove.dev.
 #ifndef CLIENT_BAG_IMAGE_MESSAGE_H_
 #define CLIENT_BAG_IMAGE_MESSAGE_H_
 

@@ -1,4 +1,4 @@
-// MCAP files. Source: the format's public specification (mcap.dev/spec); reader: own design.
+// MCAP files. Source: the format's public specification (mcap.dev/spec).
 #ifndef CLIENT_BAG_MCAP_READER_H_
 #define CLIENT_BAG_MCAP_READER_H_
 

@@ -1,5 +1,5 @@
 // Writes MCAP files of Protobuf messages. Source: the format's public specification
-// (mcap.dev/spec); writer: own design.
+// (mcap.dev/spec).
 #ifndef CLIENT_BAG_MCAP_WRITER_H_
 #define CLIENT_BAG_MCAP_WRITER_H_
 

@@ -1,5 +1,4 @@
-// ROS 1 bags, version 2.0. Source: the format's public description (wiki.ros.org/Bags/Format/2.0);
-// reader: own design.
+// ROS 1 bags, version 2.0. Source: the format's public description (wiki.ros.org/Bags/Format/2.0).
 #ifndef CLIENT_BAG_ROS1_BAG_H_
 #define CLIENT_BAG_ROS1_BAG_H_
 

@@ -1,5 +1,5 @@
 // Fields of ROS messages in the order of their definition, as ROS 1 or CDR. Source: the public
-// descriptions of both; own design.
+// descriptions of both.
 #ifndef CLIENT_BAG_ROS_READER_H_
 #define CLIENT_BAG_ROS_READER_H_
 

@@ -1,4 +1,4 @@
-// Databases of rosbag2 (.db3). Source: the tables that rosbag2 writes; reader: own design.
+// Databases of rosbag2 (.db3). Source: the tables that rosbag2 writes.
 #ifndef CLIENT_BAG_ROSBAG2_DATABASE_H_
 #define CLIENT_BAG_ROSBAG2_DATABASE_H_
 

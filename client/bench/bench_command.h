@@ -8,7 +8,7 @@
 
 namespace homing::client {
 
-// Adds the flags to `app`, and sets Session::run when they are read.
+// Adds the flags to `app`, and sets Session::run when they are parsed.
 void AddBenchFlags(CLI::App& app, Session& session);
 
 }  // namespace homing::client

@@ -26,7 +26,7 @@ constexpr std::size_t kReadBytes = 16384;
 
 nghttp2_nv Header(std::string_view name, std::string_view value) {
   const auto bytes = [](std::string_view text) {
-    // nghttp2 takes them for reading only.
+    // nghttp2 only reads them.
     return reinterpret_cast<std::uint8_t*>(const_cast<char*>(text.data()));
   };
   return {bytes(name), bytes(value), name.size(), value.size(), NGHTTP2_NV_FLAG_NONE};
@@ -47,7 +47,7 @@ std::ptrdiff_t TlsResult(SSL* tls, int result) {
 
 }  // namespace
 
-// nghttp2's, with the call as their user data.
+// Callbacks of nghttp2; their user data is the call.
 struct Http2Call::Callbacks {
   static Http2Call& Of(void* call) { return *static_cast<Http2Call*>(call); }
 
@@ -186,7 +186,7 @@ void Http2Call::Receive(bool to_the_end) {
         nghttp2_session_mem_recv(session_, reinterpret_cast<const std::uint8_t*>(data.data()),
                                  static_cast<std::size_t>(size));
     if (taken < 0) return Finish(absl::InternalError(nghttp2_strerror(static_cast<int>(taken))));
-    // A socket that gave less than was asked for is empty, and says when it no longer is.
+    // A socket that returned less than requested is empty, and reports when it has data again.
     const bool is_empty = tls_ == nullptr && static_cast<std::size_t>(size) < data.size();
     if (is_empty && !to_the_end) break;
   }

@@ -1,6 +1,6 @@
-// One two-way gRPC call on a connection of its own, without gRPC. A load takes a thousand of these:
-// what gRPC's client would take of the processor is left to the server. Source: RFC 9113 by
-// nghttp2; gRPC over HTTP/2.
+// One bidirectional gRPC call on its own connection, without gRPC's client, whose processor time
+// would be missing for the server: a load has a thousand of these. Source: RFC 9113 by nghttp2;
+// gRPC over HTTP/2.
 #ifndef CLIENT_BENCH_HTTP2_CALL_H_
 #define CLIENT_BENCH_HTTP2_CALL_H_
 
@@ -18,12 +18,12 @@
 
 namespace homing::client {
 
-// For one thread. Nothing waits but Open.
+// For one thread. Only Open blocks.
 class Http2Call {
  public:
   using OnMessage = std::function<void(std::string_view message)>;
 
-  // `method` as "/package.Service/Method". Connects, with TLS where it is asked for. UNAVAILABLE.
+  // `method` is "/package.Service/Method". Connects, with TLS if set. UNAVAILABLE.
   static absl::StatusOr<std::unique_ptr<Http2Call>> Open(const Http2Endpoint& endpoint,
                                                          const std::string& method,
                                                          OnMessage on_message);
@@ -32,16 +32,16 @@ class Http2Call {
   Http2Call& operator=(const Http2Call&) = delete;
 
   int socket() const { return socket_; }
-  // One message, in two pieces; goes out with the next Flush.
+  // Queues one message in two parts; the next Flush sends it.
   void Queue(std::string_view begin, std::string_view end = {});
-  // After what is queued.
+  // Closes the sending side, after the queued messages.
   void HalfClose();
-  // Messages queued have left, as far as this program knows.
+  // Queued messages have left this program.
   bool sent_all() const { return taken_ == queued_.size() && written_ == output_.size(); }
-  // Sends as much as the peer and the socket take.
+  // Sends as much as the peer and the socket accept.
   void Flush();
-  // Takes what has come and answers what HTTP/2 asks for. `to_the_end`: the peer has hung up, and
-  // nothing will tell of it again.
+  // Reads the received data and queues HTTP/2's replies. `to_the_end`: the peer has closed the
+  // connection, so no further event will come.
   void Receive(bool to_the_end);
   bool done() const { return done_; }
   // REQUIRES: done.
@@ -53,7 +53,7 @@ class Http2Call {
   absl::Status Begin(const Http2Endpoint& endpoint, const std::string& method);
   void Took(std::string_view data);
   void Finish(const absl::Status& status);
-  // Bytes; 0: none for now; below 0: the connection is gone.
+  // Bytes read; 0: none now; negative: the connection is broken.
   std::ptrdiff_t Read(char* data, std::size_t size);
   std::ptrdiff_t Write(const char* data, std::size_t size);
 
@@ -64,14 +64,14 @@ class Http2Call {
   std::shared_ptr<SSL> tls_;
   nghttp2_session* session_ = nullptr;
   int stream_ = 0;
-  // Not yet given to HTTP/2 from taken_ on; not yet to the socket from written_ on.
+  // Bytes from taken_ on are not given to HTTP/2 yet; bytes from written_ on not to the socket.
   std::string queued_;
   std::size_t taken_ = 0;
   std::string output_;
   std::size_t written_ = 0;
   std::string received_;
   bool half_closed_ = false;
-  // As the trailers say.
+  // From the trailers.
   int code_ = -1;
   std::string message_;
   bool done_ = false;

@@ -12,6 +12,7 @@
 #include <cstring>
 
 #include "absl/strings/str_cat.h"
+#include "homing/base/field_error.h"
 #include "homing/base/status_macros.h"
 
 namespace homing::client {
@@ -29,8 +30,7 @@ absl::StatusOr<Http2Endpoint> Http2Endpoint::Make(const ConnectionOptions& optio
   Http2Endpoint endpoint;
   const std::size_t colon = options.address.rfind(':');
   if (colon == std::string::npos || colon == 0 || colon + 1 == options.address.size()) {
-    return absl::InvalidArgumentError(
-        absl::StrCat("--server is \"", options.address, "\"; a load takes host:port"));
+    return TextMustBe("--server", options.address, "host:port");
   }
   endpoint.authority_ = options.address;
   endpoint.host_ = options.address.substr(0, colon);
@@ -44,7 +44,7 @@ absl::StatusOr<Http2Endpoint> Http2Endpoint::Make(const ConnectionOptions& optio
   SSL_CTX* const tls = endpoint.tls_.get();
   SSL_CTX_set_verify(tls, SSL_VERIFY_PEER, nullptr);
   SSL_CTX_set_mode(tls, SSL_MODE_ENABLE_PARTIAL_WRITE | SSL_MODE_ACCEPT_MOVING_WRITE_BUFFER);
-  // All that has come by one call; else each record takes two, one for its header.
+  // Reads all available data in one call; otherwise each record takes two, one for its header.
   SSL_CTX_set_read_ahead(tls, 1);
   constexpr std::array<unsigned char, 3> kHttp2{2, 'h', '2'};
   SSL_CTX_set_alpn_protos(tls, kHttp2.data(), kHttp2.size());
@@ -86,7 +86,7 @@ absl::StatusOr<std::shared_ptr<SSL>> Http2Endpoint::Secure(int socket) const {
   if (tls_ == nullptr) return std::shared_ptr<SSL>();
   std::shared_ptr<SSL> tls(SSL_new(tls_.get()), SSL_free);
   SSL_set_fd(tls.get(), socket);
-  // What is no address is a name; one of the two is always checked.
+  // A host that is not an address is a name; one of the two is always checked.
   if (X509_VERIFY_PARAM_set1_ip_asc(SSL_get0_param(tls.get()), host_.c_str()) != 1) {
     if (SSL_set1_host(tls.get(), host_.c_str()) != 1) {
       return absl::InvalidArgumentError(absl::StrCat("--server: no host name in ", authority_));

@@ -1,4 +1,4 @@
-// A server that calls are made to without gRPC. Source: own design.
+// A server's address and TLS settings, for calls without gRPC.
 #ifndef CLIENT_BENCH_HTTP2_ENDPOINT_H_
 #define CLIENT_BENCH_HTTP2_ENDPOINT_H_
 

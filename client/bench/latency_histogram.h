@@ -1,5 +1,4 @@
-// Latencies counted in buckets of equal relative width. Source: own design, after Tene's HDR
-// histogram.
+// Counts latencies in buckets of equal relative width. Source: after Tene's HDR histogram.
 #ifndef CLIENT_BENCH_LATENCY_HISTOGRAM_H_
 #define CLIENT_BENCH_LATENCY_HISTOGRAM_H_
 
@@ -17,7 +16,8 @@ class LatencyHistogram {
   void Add(const LatencyHistogram& other);
   std::uint64_t count() const { return count_; }
   double max_ms() const { return static_cast<double>(max_us_) * 1e-3; }
-  // At least this share of the latencies is at most so long, ms; 0 of none. REQUIRES: 0 to 1.
+  // The latency, ms, that at least this fraction of the latencies does not exceed; 0 if there are
+  // none. REQUIRES: 0 to 1.
   double PercentileMs(double share) const;
 
  private:

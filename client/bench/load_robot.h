@@ -1,4 +1,4 @@
-// One robot of a load: a stream of its own connection, sent to at given times. Source: own design.
+// One robot of a load: a stream on its own connection, which sends at given times.
 #ifndef CLIENT_BENCH_LOAD_ROBOT_H_
 #define CLIENT_BENCH_LOAD_ROBOT_H_
 
@@ -22,17 +22,17 @@ namespace homing::client {
 
 using LoadClock = std::chrono::steady_clock;
 
-// What came of one robot, or of all.
+// The result of one robot, or of all.
 struct LoadCounts {
   std::int64_t sent = 0;
   std::int64_t answered = 0;
-  // Sent over 10 ms after their time: the client or the link could not keep up.
+  // Sent more than 10 ms late: the client or the link could not keep up.
   std::int64_t late = 0;
   LatencyHistogram latency;
   absl::Status status;
 };
 
-// The observation answered; -1: none (the answer to the config).
+// The answered observation; -1: none (the answer to the config).
 inline std::int64_t AnsweredSequence(const v1::RecordJourneyResponse& response) {
   return response.has_sequence() ? response.sequence() : -1;
 }
@@ -40,12 +40,12 @@ inline std::int64_t AnsweredSequence(const v1::LocalizeResponse& response) {
   return response.sequence();
 }
 
-// Latencies run from the time at which an observation was due, not from the write: a queue that
-// forms anywhere counts. For one thread.
+// Latencies count from the time at which an observation should leave, not from the write, so that
+// every queue counts. For one thread.
 template <typename Request, typename Response>
 class LoadRobot {
  public:
-  // What robots send, over and over: requests without their observation's sequence.
+  // The requests that robots send repeatedly, without the observation's sequence.
   using Requests = std::vector<std::string>;
 
   // Calls `method` and sends the config. `requests` must outlive it.
@@ -67,26 +67,26 @@ class LoadRobot {
   int socket() const { return call_->socket(); }
   bool done() const { return call_->done(); }
 
-  // The next observation is to leave at `time`.
+  // Schedules the next observation for `time`.
   void Due(LoadClock::time_point time) {
     due_.push_back(time);
     SendDue();
   }
 
-  // Nothing more comes.
+  // Nothing more will be scheduled.
   void HalfClose() {
     closing_ = true;
     SendDue();
   }
 
-  // The socket has something, takes something again, or was hung up.
+  // The socket has data, has room, or was closed.
   void Advance(LoadClock::time_point now, bool hung_up) {
     now_ = now;
     call_->Receive(hung_up);
     SendDue();
   }
 
-  // Breaks the stream off if it has not ended.
+  // Cancels the stream unless it has ended.
   LoadCounts End() {
     call_->Cancel();
     counts_.status = call_->status();
@@ -104,7 +104,7 @@ class LoadRobot {
       due_.pop_front();
       const std::string& request =
           requests_[static_cast<std::size_t>(counts_.sent) % requests_.size()];
-      // A message's parts may come one after the other: protobuf joins them.
+      // The parts of a message may follow each other: protobuf merges them.
       numbered_.mutable_observation()->set_sequence(counts_.sent++);
       call_->Queue(request, numbered_.SerializeAsString());
       call_->Flush();
@@ -131,7 +131,7 @@ class LoadRobot {
   Request numbered_;
   Response response_;
   LoadClock::time_point now_;
-  // Times of those not yet sent, and of those not yet answered.
+  // Scheduled times of observations that are not sent, and of those not answered.
   std::deque<LoadClock::time_point> due_;
   std::deque<LoadClock::time_point> waiting_;
   LoadCounts counts_;

@@ -28,7 +28,7 @@ constexpr int kSceneSteps = 250;
 constexpr int kOutDrive = 1;
 constexpr int kSecondDrive = 2;
 constexpr int kSceneFrames = 60;
-// For the last answers, after the last observation.
+// Time for the last answers after the last observation.
 constexpr std::chrono::seconds kGrace{30};
 
 std::string RobotOf(const LoadOptions& options, int robot) {
@@ -67,7 +67,7 @@ absl::StatusOr<LoadScene> MakeScene(const LoadOptions& options, int route, int d
   return LoadScene::WithFlow(route, drive, steps, options.vectors);
 }
 
-// One drive along each route that is shared; all have the same frames.
+// One drive along each shared route; all have the same frames.
 absl::StatusOr<std::vector<LoadScene>> MakeScenes(const LoadOptions& options, int drive) {
   const bool shared = options.localize || options.prepare_only;
   std::vector<LoadScene> scenes;
@@ -80,7 +80,7 @@ absl::StatusOr<std::vector<LoadScene>> MakeScenes(const LoadOptions& options, in
   return scenes;
 }
 
-// The journeys that are localised on; those that are there already are left as they are.
+// Records the journeys to localise on; existing ones stay unchanged.
 absl::Status RecordJourneys(const Connection& connection, const LoadOptions& options,
                             const std::vector<LoadScene>& scenes, const std::stop_token& stop) {
   JourneyClient journeys(&connection, stop);
@@ -125,14 +125,15 @@ class Drive {
   Drive& operator=(const Drive&) = delete;
 
   void Add(std::unique_ptr<Robot> robot) {
-    // Told once, when something came or there is room again: a robot takes all there is.
+    // Edge-triggered: one event for new data or room, after which a robot reads all there is.
     epoll_event event{.events = EPOLLIN | EPOLLOUT | EPOLLRDHUP | EPOLLET, .data = {}};
     event.data.ptr = robot.get();
     epoll_ctl(epoll_, EPOLL_CTL_ADD, robot->socket(), &event);
     robots_.push_back(std::move(robot));
   }
 
-  // Sends at the robots' times, which are spread evenly over a period, each robot's for `seconds`.
+  // Sends at the robots' times, which are spread evenly over a period; each robot sends for
+  // `seconds`.
   LoadResult Run(const std::stop_token& stop) {
     using Seconds = std::chrono::duration<double>;
     const LoadClock::time_point start = LoadClock::now() + std::chrono::seconds(1);
@@ -169,7 +170,8 @@ class Drive {
   }
 
  private:
-  // Looks twice a millisecond, and does not wake up for each answer: the machine is the server's.
+  // Polls every half millisecond instead of waking up for each answer: the processor is the
+  // server's.
   void Tick() {
     std::this_thread::sleep_for(std::chrono::microseconds(500));
     std::array<epoll_event, 256> events{};
@@ -217,7 +219,7 @@ std::vector<std::string> RequestsOf(const LoadScene& scene) {
   return requests;
 }
 
-// All robots call `method`, each with the config and the scene that are its own.
+// Each robot calls `method` with its own config and scene.
 template <typename Request, typename Response, typename Configure>
 absl::StatusOr<LoadResult> DriveAll(const ConnectionOptions& connection, const LoadOptions& options,
                                     const std::string& method, const Configure& configure,

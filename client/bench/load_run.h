@@ -1,5 +1,4 @@
-// A load on a server: many robots, each on a connection of its own, at a steady rate. Source: own
-// design.
+// A load on a server: many robots, each on its own connection, at a steady rate.
 #ifndef CLIENT_BENCH_LOAD_RUN_H_
 #define CLIENT_BENCH_LOAD_RUN_H_
 
@@ -19,20 +18,20 @@ struct LoadOptions {
   // Observations a second of each robot. (0, 1000].
   double rate = 10;
   double seconds = 10;
-  // Robots begin one after the other over so many seconds, and send for `seconds` each. [0, 1e6].
+  // Robots start one after the other over this time, s, and send for `seconds` each. [0, 1e6].
   double ramp_seconds = 0;
-  // Else flow vectors.
+  // Frames instead of flow vectors.
   bool frames = false;
-  // Of each observation. [0, 100'000].
+  // Vectors of each observation. [0, 100'000].
   int vectors = 200;
-  // Else they record.
+  // Localise instead of record.
   bool localize = false;
-  // What localising robots share: how many journeys of how many steps; they are recorded first.
+  // The number of journeys that localising robots share, and their steps; they are recorded first.
   int journeys = 10;
   int steps = 2000;
-  // First part of the robots' ids; a number follows.
+  // Prefix of the robots' ids; a number follows.
   std::string prefix = "bench";
-  // Make the journeys, and leave it at that.
+  // Record the journeys only.
   bool prepare_only = false;
 };
 
@@ -41,13 +40,13 @@ absl::Status Validate(const LoadOptions& options);
 
 struct LoadResult {
   LoadCounts counts;
-  // From the first observation's time to the last answer.
+  // From the first observation's scheduled time to the last answer.
   double seconds = 0;
-  // Robots whose stream did not end well.
+  // Robots whose stream ended with an error.
   int failed_robots = 0;
 };
 
-// The errors of single robots are in the result. CANCELLED: stopped. Others as the calls.
+// Errors of single robots are in the result. CANCELLED: stopped. Errors of the calls.
 absl::StatusOr<LoadResult> RunLoad(const ConnectionOptions& connection, const LoadOptions& options,
                                    const std::function<void(const std::string&)>& log,
                                    const std::stop_token& stop);

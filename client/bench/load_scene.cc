@@ -13,7 +13,7 @@ namespace {
 
 constexpr char kFrames[] = "sim:street,length=40";
 constexpr double kStepM = 4 / 3.6 / 5;
-// Of one more corner from one that is seen.
+// Derives one more corner from a visible one.
 constexpr double kBesidePx = 6;
 
 bool IsInside(const FlowField& field, float x, float y) {
@@ -21,7 +21,7 @@ bool IsInside(const FlowField& field, float x, float y) {
          y < static_cast<float>(field.height);
 }
 
-// Thinned out to `count` vectors, or with more corners beside those that are seen.
+// Thins the field out to `count` vectors, or adds corners to it.
 void SetCount(std::size_t count, SeededRandom& random, FlowField& field) {
   std::vector<FlowVector>& vectors = field.vectors;
   const auto any = [&] {

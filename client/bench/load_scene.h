@@ -1,4 +1,4 @@
-// What the robots of a load see. Source: own design.
+// The observations that the robots of a load send.
 #ifndef CLIENT_BENCH_LOAD_SCENE_H_
 #define CLIENT_BENCH_LOAD_SCENE_H_
 
@@ -9,10 +9,10 @@
 
 namespace homing::client {
 
-// The observations of one route, made once and given out over and over.
+// The observations of one route, made once and sent repeatedly.
 class LoadScene {
  public:
-  // Flow vectors of the left camera on a simulated street, another one for each route; each drive
+  // Flow vectors of the left camera on a simulated street. Each route is another street; each drive
   // along it has its own noise and clutter.
   static LoadScene WithFlow(int route, int drive, int steps, int vectors);
   // Frames of the simulated street, left camera.

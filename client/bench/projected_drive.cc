@@ -12,11 +12,12 @@ namespace {
 constexpr int kWidth = 320;
 constexpr int kHeight = 240;
 constexpr double kFocalPx = 277;
-// One corner a cell, as the tracker has it.
+// One corner a cell, as the tracker keeps.
 constexpr int kCellPx = 8;
 constexpr int kColumns = kWidth / kCellPx;
 constexpr int kRows = kHeight / kCellPx;
-// No more than this far from the middle of the picture, metres along the route for one away.
+// Corners are projected up to this distance from the image centre, in metres along the route for
+// each metre of depth.
 constexpr double kHalfView = 0.5 * kWidth / kFocalPx;
 constexpr int kPatterns = 8;
 constexpr double kPatternWidthM = 4;
@@ -26,7 +27,7 @@ struct Mark {
   double up = 0;
 };
 
-// Corners of a front of 4 m, the same for all worlds.
+// Corners of a façade of 4 m, equal in all worlds.
 std::vector<Mark> PatternOf(int pattern) {
   SeededRandom random(Mix(0xF407, static_cast<std::uint64_t>(pattern)));
   std::vector<Mark> marks;
@@ -85,7 +86,7 @@ void ProjectedWorld::AddFront(std::size_t side, double begin, double end, std::u
   }
 }
 
-// Posts and parked boxes before the fronts, trees and roofs behind.
+// Posts and parked boxes before the façades, trees and roofs behind.
 void ProjectedWorld::AddRest(std::size_t side, double length_m, std::uint64_t key) {
   SeededRandom random(key);
   for (double at = -30; at < length_m + 30; at += random.Uniform(2, 9)) {
@@ -122,8 +123,7 @@ bool ProjectedDrive::IsGone(const ProjectedWorld::Corner& corner) const {
 FlowField ProjectedDrive::Field(std::size_t side, std::int64_t instant) const {
   SeededRandom random(Mix(options_.seed, side, static_cast<std::uint64_t>(instant)));
   FlowField field{.width = kWidth, .height = kHeight, .vectors = {}};
-  // Along the route is to the right of the picture on the left side, to the left of it on the
-  // right.
+  // The direction of the route points to the right of a left image, and to the left of a right one.
   const double sign = side == 0 ? 1 : -1;
   const double before = options_.start_m + static_cast<double>(instant) * step_m_;
   const double now = before + step_m_;
@@ -163,7 +163,7 @@ FlowField ProjectedDrive::Field(std::size_t side, std::int64_t instant) const {
 ObservedFlow ProjectedDrive::Flow(std::int64_t instant) const {
   ObservedFlow flow;
   for (std::size_t side = 0; side < 2; ++side) {
-    // The camera that looks there now.
+    // The camera that looks at this side now.
     const std::size_t camera = options_.travel == Travel::kSame ? side : 1 - side;
     flow.fields[camera] = Field(side, instant);
   }

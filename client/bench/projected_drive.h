@@ -1,4 +1,4 @@
-// Drives whose flow is projected from points, not rendered: long routes at little cost.
+// Drives whose flow is projected from points instead of rendered: long routes at little cost.
 #ifndef CLIENT_BENCH_PROJECTED_DRIVE_H_
 #define CLIENT_BENCH_PROJECTED_DRIVE_H_
 
@@ -11,18 +11,19 @@
 
 namespace homing::client {
 
-// Both sides of a street: fronts with corners, posts before them, far things behind. All routes
-// draw their fronts from one pool of eight patterns of corners. Source: own design.
+// Both sides of a street: façades with corners, posts before them, far objects behind. All routes
+// take their façades from one pool of eight patterns of corners.
 class ProjectedWorld {
  public:
   ProjectedWorld(std::uint64_t seed, double length_m);
 
   struct Corner {
-    // Along the route; from its middle; above the camera. Metres.
+    // Metres: along the route, from its middle, above the camera.
     float along = 0;
     float away = 0;
     float up = 0;
-    // What it stands on: gone or there as one. Below 0: a front, always there.
+    // The object that holds the point; all points of an object disappear together. Negative: a
+    // façade, which never disappears.
     std::int32_t object = -1;
   };
 
@@ -38,32 +39,32 @@ class ProjectedWorld {
 };
 
 struct ProjectedDriveOptions {
-  // Noise, clutter, and what is gone; another drive has another.
+  // The seed of noise, clutter and missing objects; each drive has its own.
   std::uint64_t seed = 1;
   double start_m = 0;
   double end_m = 0;
   double speed_kmh = 4;
   double fps = 5;
-  // To the left of the outbound path, metres.
+  // Offset to the left of the outbound path, metres.
   double offset_m = 0;
   Travel travel = Travel::kSame;
-  // Of either end of a vector, pixels.
+  // Noise of either end of a vector, pixels.
   double noise_px = 0.2;
-  // Share of corners that are not found at an instant; of vectors that are no corner's; of posts,
-  // boxes and trees that have gone.
+  // Fractions: of corners that are not found at an instant; of vectors that belong to no corner; of
+  // posts, boxes and trees that have disappeared.
   double missing = 0.2;
   double clutter = 0.15;
   double removed = 0.1;
 };
 
-// The same options give the same instants. Cameras of 320 x 240, focal length 277 px.
+// Equal options give equal instants. Cameras of 320 x 240, focal length 277 px.
 class ProjectedDrive {
  public:
   ProjectedDrive(const ProjectedWorld* world, const ProjectedDriveOptions& options);
 
   std::int64_t size() const { return size_; }
   ObservedFlow Flow(std::int64_t instant) const;
-  // Along the route, metres, in the middle of the instant.
+  // Position along the route at the middle of the instant, metres.
   double Place(std::int64_t instant) const;
 
  private:

@@ -154,13 +154,13 @@ std::unique_ptr<ObservationStream> AnswerBag::Watch(ObservationStream* inner) {
 }
 
 void AnswerBag::ForgetFlow() {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   flow_ = ObservationFlow(flow_options_);
 }
 
 // An observation that the server refuses is not kept; the server says why.
 void AnswerBag::Keep(const v1::Observation& message) {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   const auto observation = wire::FromProto(message);
   if (!observation.ok()) return;
   auto flow = flow_.Compute(*observation);
@@ -208,7 +208,7 @@ absl::Status AnswerBag::WritePictures(const v1::LocalizeResponse& answer, Seen s
 }
 
 absl::Status AnswerBag::Add(const v1::LocalizeResponse& answer) {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   const auto found = seen_.find(answer.sequence());
   std::int64_t time_ns = start_ns_ + answer.sequence() * kUntimedStepNs;
   if (found != seen_.end()) {
@@ -220,7 +220,7 @@ absl::Status AnswerBag::Add(const v1::LocalizeResponse& answer) {
 }
 
 absl::Status AnswerBag::Finish() {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   return writer_.Finish();
 }
 

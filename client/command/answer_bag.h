@@ -7,7 +7,6 @@
 #include <fstream>
 #include <map>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <string>
 
@@ -15,6 +14,7 @@
 #include "client/bag/foxglove.pb.h"
 #include "client/bag/mcap_writer.h"
 #include "client/observation_stream.h"
+#include "homing/base/mutex.h"
 #include "homing/flow/observation.h"
 #include "homing/v1/homing_service.pb.h"
 
@@ -53,19 +53,20 @@ class AnswerBag {
   AnswerBag(std::ofstream file, const FlowOptions& flow);
   void Keep(const v1::Observation& observation);
   void ForgetFlow();
-  absl::Status WritePictures(const v1::LocalizeResponse& answer, Seen seen);
-  std::uint16_t Channel(const std::string& topic, const google::protobuf::Message& message);
+  absl::Status WritePictures(const v1::LocalizeResponse& answer, Seen seen) HOMING_REQUIRES(mutex_);
+  std::uint16_t Channel(const std::string& topic, const google::protobuf::Message& message)
+      HOMING_REQUIRES(mutex_);
 
-  std::mutex mutex_;
+  Mutex mutex_;
   std::ofstream file_;
-  bag::McapWriter writer_;
-  std::map<std::string, std::uint16_t> channels_;
+  bag::McapWriter writer_ HOMING_GUARDED_BY(mutex_);
+  std::map<std::string, std::uint16_t> channels_ HOMING_GUARDED_BY(mutex_);
   FlowOptions flow_options_;
-  ObservationFlow flow_;
+  ObservationFlow flow_ HOMING_GUARDED_BY(mutex_);
   // Of observations without a time: a tenth of a second each, from now on.
   std::int64_t start_ns_;
   // Not answered yet.
-  std::map<std::int64_t, Seen> seen_;
+  std::map<std::int64_t, Seen> seen_ HOMING_GUARDED_BY(mutex_);
 };
 
 }  // namespace homing::client

@@ -5,7 +5,7 @@
 #include "absl/strings/str_cat.h"
 #include "client/command/commands.h"
 #include "client/command/json_line.h"
-#include "client/command/output_file.h"
+#include "client/file/output_file.h"
 #include "client/store_client.h"
 #include "homing/base/status_macros.h"
 
@@ -18,7 +18,7 @@ absl::Status BackUp(const Session& session, const std::string& path) {
     return BackUpStore(connection, file, session.stop);
   };
   if (path == "-") return write(std::cout);
-  HOMING_ASSIGN_OR_RETURN(const std::uintmax_t bytes, WriteOutputFile(path, write));
+  HOMING_ASSIGN_OR_RETURN(const std::uintmax_t bytes, WriteOutputFile(path, write, session.stop));
   if (session.json) return session.PrintJson(Json{{"file", path}, {"bytes", bytes}});
   return session.Print(absl::StrCat(path, ": ", bytes, " bytes"));
 }

@@ -1,4 +1,4 @@
-// Answers of `homing localize --json` against the true places of both drives. Source: own design.
+// Compares the answers of `homing localize --json` with the true places of both drives.
 #ifndef CLIENT_COMMAND_EVALUATION_H_
 #define CLIENT_COMMAND_EVALUATION_H_
 
@@ -13,9 +13,9 @@
 
 namespace homing::client {
 
-// One line of truth.csv, by instant.
+// One line of truth.csv.
 struct TruePlace {
-  // Along the outbound route from home.
+  // Metres along the outbound route from home.
   double metres = 0;
   // By the robot's camera; -1: none.
   std::array<int, 2> landmarks{-1, -1};
@@ -62,7 +62,7 @@ struct Verdict {
   // Observations after the first `after_m` of the way home, and those of them within `within_m`.
   std::int64_t counted = 0;
   std::int64_t within = 0;
-  // Of the counted that name a step; NaN if none does.
+  // Over the counted observations that name a step; NaN if none does.
   double median_error_m = 0;
 
   double share() const {

@@ -12,6 +12,7 @@
 #include "client/calibration_file.h"
 #include "client/frame_source.h"
 #include "client/view_window.h"
+#include "homing/base/field_error.h"
 #include "homing/base/status_macros.h"
 #include "proto/wire/settings_conversion.h"
 
@@ -20,13 +21,10 @@ namespace {
 
 constexpr char kCameraForm[] = "fx,fy,cx,cy[,k1,k2,p1,p2,k3][,yaw=RAD] or FILE[#CAMERA][,yaw=RAD]";
 
-// CLI11 wants a text, empty if all is well.
+// CLI11 expects an error text, empty if the value is valid.
 std::string Explain(const absl::Status& status) { return std::string(status.message()); }
 
-absl::Status BadCamera(const std::string& text) {
-  return absl::InvalidArgumentError(
-      absl::StrCat("camera is \"", text, "\"; it must be ", kCameraForm));
-}
+absl::Status BadCamera(const std::string& text) { return TextMustBe("camera", text, kCameraForm); }
 
 ViewWindow WindowOf(const RobotFlags& flags, Side side) {
   const bool right = side == Side::kRight;
@@ -40,6 +38,28 @@ ViewWindow WindowOf(const RobotFlags& flags, Side side) {
 v1::Camera CameraOrNone(const std::string& text) {
   const auto camera = ParseCamera(text);
   return camera.ok() ? *camera : v1::Camera();
+}
+
+void AddFrameChoice(CLI::App& command, FrameChoice& frames) {
+  command.add_option("--every", frames.every, "Take every N-th frame")
+      ->check(CLI::Range(std::int64_t{1}, std::int64_t{1'000'000}))
+      ->capture_default_str();
+  command
+      .add_option("--fps", frames.fps,
+                  "Take at most so many frames a second, by the times of the source [all]")
+      ->check(CLI::Range(1e-3, 1e4));
+  command
+      .add_option("--seconds", frames.seconds,
+                  "End after so many seconds of the source [at its end]")
+      ->check(CLI::Range(1e-3, 1e9));
+  CLI::Option* strict = command.add_flag(
+      "--strict", frames.strict,
+      "End at a bad frame, and refuse frames of one camera that have no partner of the other");
+  command
+      .add_flag_function(
+          "--skip-bad-frames", [&frames](std::int64_t) { frames.strict = false; },
+          "Skip and report them (empty, damaged, of another size): this is the default")
+      ->excludes(strict);
 }
 
 }  // namespace
@@ -109,6 +129,7 @@ void AddRobotFlags(CLI::App& command, RobotFlags& flags) {
   command.add_option("--send", flags.send, "Send the frames, or flow vectors computed here")
       ->check(CLI::IsMember({"frames", "flow"}))
       ->capture_default_str();
+  AddFrameChoice(command, flags.frames);
 }
 
 absl::StatusOr<Cameras> OpenCameras(const RobotFlags& flags) {
@@ -134,15 +155,6 @@ std::optional<v1::Camera> CameraOf(const RobotFlags& flags, const Cameras& camer
   const auto camera = source == nullptr ? std::nullopt : source->camera();
   if (!camera) return std::nullopt;
   return wire::ToProto(*camera);
-}
-
-std::vector<std::string> RemarksOn(const Cameras& cameras) {
-  std::vector<std::string> lines;
-  for (const auto& camera : cameras) {
-    const std::string line = camera == nullptr ? "" : camera->remark();
-    if (!line.empty() && (lines.empty() || lines.back() != line)) lines.push_back(line);
-  }
-  return lines;
 }
 
 void RequireCamera(const RobotFlags& flags) {

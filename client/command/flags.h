@@ -1,4 +1,4 @@
-// Flags that several commands have. Source: own design.
+// Flags of several commands.
 #ifndef CLIENT_COMMAND_FLAGS_H_
 #define CLIENT_COMMAND_FLAGS_H_
 
@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "absl/status/statusor.h"
+#include "client/camera_instants.h"
 #include "client/camera_observations.h"
 #include "client/connection.h"
 #include "client/journey_client.h"
@@ -21,7 +22,7 @@ namespace homing::client {
 // client/calibration_file.h. INVALID_ARGUMENT, NOT_FOUND.
 absl::StatusOr<v1::Camera> ParseCamera(const std::string& text);
 
-// --left, --right, --left-camera, --right-camera, --send.
+// --left, --right, --left-camera, --right-camera, --send, --every, --fps, --seconds, --strict.
 struct RobotFlags {
   std::string left;
   std::string right;
@@ -33,9 +34,10 @@ struct RobotFlags {
   std::string mask;
   std::string right_mask;
   std::string send = "frames";
+  FrameChoice frames;
 
   bool sends_flow() const { return send == "flow"; }
-  // Those that are given. REQUIRES: checked by the flag.
+  // The given cameras. REQUIRES: the flags were checked.
   v1::Camera left_intrinsics() const;
   v1::Camera right_intrinsics() const;
 };
@@ -46,8 +48,6 @@ absl::StatusOr<Cameras> OpenCameras(const RobotFlags& flags);
 void AddRobotFlags(CLI::App& command, RobotFlags& flags);
 // The camera of a side: as the flags give it, else as the source describes it, else nothing.
 std::optional<v1::Camera> CameraOf(const RobotFlags& flags, const Cameras& cameras, Side side);
-// Lines about what was left out of the sources.
-std::vector<std::string> RemarksOn(const Cameras& cameras);
 // Throws CLI's error of usage unless --left or --right is given.
 void RequireCamera(const RobotFlags& flags);
 
@@ -58,7 +58,7 @@ CLI::Option* AddJourneyFlag(CLI::App& command, std::string& journey, bool wildca
 void AddTravelFlag(CLI::App& command, std::string& travel);
 v1::Travel ToTravel(const std::string& travel);
 
-// How the flow of a journey is computed; for a wildcard that of the first journey it covers.
+// The settings for the flow of a journey; for a wildcard those of its first journey.
 absl::StatusOr<FlowOptions> FlowOptionsOf(JourneyClient& journeys, const std::string& journey);
 
 // --writer's default: this machine's id, else its name.

@@ -1,5 +1,4 @@
-// A file that a command writes while it runs: what there is of it can be read at any time. Source:
-// own design.
+// A file that a command writes while it runs. It can be read at any time.
 #ifndef CLIENT_COMMAND_GROWING_FILE_H_
 #define CLIENT_COMMAND_GROWING_FILE_H_
 

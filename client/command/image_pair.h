@@ -1,4 +1,4 @@
-// FIRST,SECOND: two consecutive frames of one camera named on the command line. Source: own design.
+// FIRST,SECOND: two consecutive frames of one camera named on the command line.
 #ifndef CLIENT_COMMAND_IMAGE_PAIR_H_
 #define CLIENT_COMMAND_IMAGE_PAIR_H_
 
@@ -14,7 +14,7 @@ struct ImagePair {
   SourceFrame second;
 };
 
-// For CLI11: what is wrong with the text, empty if nothing.
+// For CLI11: an error text, empty if the value is valid.
 std::string CheckImagePair(const std::string& text);
 
 // INVALID_ARGUMENT, NOT_FOUND.

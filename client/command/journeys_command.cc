@@ -1,3 +1,4 @@
+#include <cerrno>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -5,11 +6,13 @@
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
+#include "absl/strings/str_join.h"
 #include "client/command/commands.h"
 #include "client/command/flags.h"
 #include "client/command/json_line.h"
-#include "client/command/output_file.h"
+#include "client/file/output_file.h"
 #include "client/journey_client.h"
+#include "client/map_quality.h"
 #include "homing/base/status_macros.h"
 
 namespace homing::client {
@@ -19,6 +22,8 @@ struct JourneysFlags {
   std::string parent = "robots/-";
   std::string journey;
   std::string file;
+  std::vector<std::string> readers;
+  bool force = false;
   bool aliasing = false;
   int tolerance = 10;
 };
@@ -48,6 +53,7 @@ absl::Status ShowTable(const Session& session, const v1::Journey& journey,
                        const std::vector<v1::Landmark>& landmarks) {
   HOMING_RETURN_IF_ERROR(session.Print(JourneyHeader()));
   HOMING_RETURN_IF_ERROR(session.Print(JourneyRow(journey)));
+  HOMING_RETURN_IF_ERROR(session.Print(MapQuality(journey).Text()));
   HOMING_RETURN_IF_ERROR(session.Print(absl::StrFormat("\n%8s  %-5s  %15s  %12s  %6s", "landmark",
                                                        "side", "steps", "fingerprints", "spread")));
   for (const v1::Landmark& landmark : landmarks) {
@@ -105,9 +111,33 @@ absl::Status Show(const Session& session, const JourneysFlags& flags) {
   if (!session.json) return ShowTable(session, journey, landmarks);
   Json line = ToJson(journey);
   line["settings"] = ToJson(journey.settings());
+  const MapQuality quality(journey);
+  line["quality"] = quality.good ? "GOOD" : "POOR";
+  line["quality_reason"] = quality.reason;
   line["landmarks"] = Json::array();
   for (const v1::Landmark& landmark : landmarks) line["landmarks"].push_back(ToJson(landmark));
   return session.PrintJson(line);
+}
+
+absl::Status Finish(const Session& session, const JourneysFlags& flags) {
+  HOMING_ASSIGN_OR_RETURN(const Connection connection, session.Connect());
+  JourneyClient client(&connection, session.stop);
+  HOMING_ASSIGN_OR_RETURN(const v1::Journey journey, client.Finish(flags.journey, "", flags.force));
+  if (session.json) return session.PrintJson(ToJson(journey));
+  HOMING_RETURN_IF_ERROR(session.Print(JourneyHeader()));
+  HOMING_RETURN_IF_ERROR(session.Print(JourneyRow(journey)));
+  return session.Print(MapQuality(journey).Text());
+}
+
+absl::Status SetReaders(const Session& session, const JourneysFlags& flags) {
+  HOMING_ASSIGN_OR_RETURN(const Connection connection, session.Connect());
+  JourneyClient client(&connection, session.stop);
+  HOMING_ASSIGN_OR_RETURN(const v1::Journey journey,
+                          client.SetReaders(flags.journey, flags.readers));
+  if (session.json) return session.PrintJson(ToJson(journey));
+  return session.Print(absl::StrCat(journey.name(), " may be read by its robot",
+                                    journey.readers().empty() ? "" : ", ",
+                                    absl::StrJoin(journey.readers(), ", ")));
 }
 
 absl::Status Delete(const Session& session, const JourneysFlags& flags) {
@@ -117,15 +147,16 @@ absl::Status Delete(const Session& session, const JourneysFlags& flags) {
   return session.Print(absl::StrCat("deleted ", flags.journey));
 }
 
-// Written beside and renamed: FILE is whole or not there.
+// Written to another name and renamed: FILE is complete or does not exist.
 absl::Status Export(const Session& session, const JourneysFlags& flags) {
   HOMING_ASSIGN_OR_RETURN(const Connection connection, session.Connect());
   JourneyClient client(&connection, session.stop);
   if (flags.file == "-") return client.Export(flags.journey, std::cout);
-  HOMING_ASSIGN_OR_RETURN(const std::uintmax_t bytes,
-                          WriteOutputFile(flags.file, [&](std::ostream& file) {
-                            return client.Export(flags.journey, file);
-                          }));
+  HOMING_ASSIGN_OR_RETURN(
+      const std::uintmax_t bytes,
+      WriteOutputFile(
+          flags.file, [&](std::ostream& file) { return client.Export(flags.journey, file); },
+          session.stop));
   if (session.json) {
     return session.PrintJson(
         Json{{"journey", flags.journey}, {"file", flags.file}, {"bytes", bytes}});
@@ -134,8 +165,9 @@ absl::Status Export(const Session& session, const JourneysFlags& flags) {
 }
 
 absl::Status Import(const Session& session, const JourneysFlags& flags) {
+  errno = 0;
   std::ifstream file(flags.file, std::ios::binary);
-  if (!file) return absl::NotFoundError(absl::StrCat("cannot read ", flags.file));
+  if (!file) return absl::ErrnoToStatus(errno, absl::StrCat("cannot read ", flags.file));
   HOMING_ASSIGN_OR_RETURN(const Connection connection, session.Connect());
   JourneyClient client(&connection, session.stop);
   HOMING_ASSIGN_OR_RETURN(const v1::Journey journey, client.Import(flags.journey, file));
@@ -167,7 +199,8 @@ void AddName(CLI::App& command, JourneysFlags& flags) {
 }  // namespace
 
 void AddJourneysCommand(CLI::App& app, Session& session) {
-  CLI::App& command = *app.add_subcommand("journeys", "The maps: list, show, delete, carry");
+  CLI::App& command =
+      *app.add_subcommand("journeys", "The maps: list, show, finish, delete, carry");
   command.require_subcommand(1);
   auto flags = std::make_shared<JourneysFlags>();
   AddAction(command, session, flags, "list", "All journeys, or those of one robot", List)
@@ -183,6 +216,15 @@ void AddJourneysCommand(CLI::App& app, Session& session) {
       ->check(CLI::Range(0, 100000))
       ->capture_default_str()
       ->needs("--aliasing");
+  CLI::App& finish = AddAction(command, session, flags, "finish",
+                               "Close a journey whose recording ended without it", Finish);
+  AddName(finish, *flags);
+  finish.add_flag("--force", flags->force, "Even while a stream still records it");
+  CLI::App& set_readers =
+      AddAction(command, session, flags, "set-readers",
+                "Who may read a journey besides its robot; without names, nobody", SetReaders);
+  AddName(set_readers, *flags);
+  set_readers.add_option("readers,--reader", flags->readers, "robots/ROBOT..., or * for all");
   AddName(AddAction(command, session, flags, "delete", "Delete a journey with its map", Delete),
           *flags);
   CLI::App& to_file = AddAction(command, session, flags, "export", "A map to one file", Export);

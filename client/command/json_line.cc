@@ -111,7 +111,7 @@ Json ToJson(const v1::MatchLandmarksResponse& answer) {
   Json seen = Json::array();
   for (const v1::Fingerprint& fingerprint : answer.seen()) {
     Json landmark = LandmarkObject(fingerprint);
-    // What is only seen has no number yet.
+    // A landmark that is only seen has no number yet.
     landmark.erase("landmark");
     seen.push_back(std::move(landmark));
   }

@@ -1,4 +1,4 @@
-// Answers as the objects that --json prints. Their words and order are fixed. Source: own design.
+// Answers as the objects that --json prints. Their keys and order are fixed.
 #ifndef CLIENT_COMMAND_JSON_LINE_H_
 #define CLIENT_COMMAND_JSON_LINE_H_
 
@@ -15,7 +15,7 @@ using Json = nlohmann::ordered_json;
 
 // LEFT, RIGHT.
 std::string Word(v1::Side side);
-// MOVING (also where nothing could be compared), STANDING, TURNING.
+// MOVING (also if nothing could be compared), STANDING, TURNING.
 std::string Word(v1::Motion motion);
 // MATCH, AMBIGUOUS, UNKNOWN_PLACE.
 std::string Word(v1::Outcome outcome);

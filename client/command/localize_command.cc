@@ -110,15 +110,18 @@ class AnswerOutputs {
 
 absl::Status Localize(const Session& session, const LocalizeFlags& flags) {
   HOMING_ASSIGN_OR_RETURN(Cameras cameras, OpenCameras(flags.robot));
-  for (const std::string& line : RemarksOn(cameras)) session.Log(line);
   const LocalizingOptions options = MakeOptions(flags, cameras);
+  HOMING_ASSIGN_OR_RETURN(
+      auto instants,
+      CameraInstants::Create(std::move(cameras), session.WithReports(flags.robot.frames)));
+  CameraInstants* const sources = instants.get();
   HOMING_ASSIGN_OR_RETURN(const Connection connection, session.Connect());
   JourneyClient journeys(&connection, session.stop);
   std::optional<FlowOptions> flow;
   if (flags.robot.sends_flow() || !flags.mcap_out.empty()) {
     HOMING_ASSIGN_OR_RETURN(flow, FlowOptionsOf(journeys, flags.journey));
   }
-  CameraObservations observations(std::move(cameras),
+  CameraObservations observations(std::move(instants),
                                   flags.robot.sends_flow() ? flow : std::nullopt);
   observations.StopAt(session.stop);
   HomingClient client(&connection, [&](const std::string& text) { session.Log(text); });
@@ -126,15 +129,20 @@ absl::Status Localize(const Session& session, const LocalizeFlags& flags) {
   AnswerOutputs outputs(session, flags);
   HOMING_RETURN_IF_ERROR(outputs.Open(flow));
   std::map<std::string, int> outcomes;
-  const auto on_answer = [&](const v1::LocalizeResponse& answer) {
+  const auto on_answer = [&](v1::LocalizeResponse answer) {
     progress.Set(answer.frame() + 1);
     ++outcomes[Word(answer.outcome())];
+    // The index in the source, also where --every or bad frames leave frames out.
+    answer.set_frame(observations.FrameOf(answer.sequence()));
     return outputs.Add(answer);
   };
   const auto watched = outputs.bag() ? outputs.bag()->Watch(&observations) : nullptr;
+  // A stop ends a live source, and with it the stream.
   const absl::Status status =
-      client.Localize(options, watched ? watched.get() : &observations, on_answer, session.stop);
-  // Also behind an error: what was answered can be looked at.
+      client.Localize(options, watched ? watched.get() : &observations, on_answer,
+                      sources->live() ? std::stop_token() : session.stop);
+  sources->ReportTotal();
+  // After an error too: the answers so far can be looked at.
   const absl::Status finished = outputs.Finish();
   HOMING_RETURN_IF_ERROR(status);
   HOMING_RETURN_IF_ERROR(finished);

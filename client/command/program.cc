@@ -1,10 +1,16 @@
 #include "client/command/program.h"
 
+#include <algorithm>
 #include <csignal>
+#include <cstdio>
 #include <cstdlib>
+#include <filesystem>
 #include <stop_token>
+#include <string>
 #include <thread>
+#include <vector>
 
+#include "absl/strings/str_cat.h"
 #include "server/process/lock_checks.h"
 
 namespace homing::client {
@@ -17,7 +23,7 @@ void StopAtSignal(const std::stop_source& source) {
   sigemptyset(&signals);
   sigaddset(&signals, SIGINT);
   sigaddset(&signals, SIGTERM);
-  // Before any other thread exists, so that all inherit it.
+  // Before any other thread starts, so that all threads inherit it.
   pthread_sigmask(SIG_BLOCK, &signals, nullptr);
   std::thread([signals, stop = source]() mutable {
     int signal = 0;
@@ -26,6 +32,15 @@ void StopAtSignal(const std::stop_source& source) {
     sigwait(&signals, &signal);
     std::_Exit(128 + signal);
   }).detach();
+}
+
+// Whether the surplus arguments are files, as after a glob that the shell resolved.
+bool NamesFiles(const CLI::App& app) {
+  const std::vector<std::string> rest = app.remaining(/*recurse=*/true);
+  std::error_code error;
+  return !rest.empty() && std::all_of(rest.begin(), rest.end(), [&](const std::string& name) {
+    return std::filesystem::exists(name, error);
+  });
 }
 
 }  // namespace
@@ -37,6 +52,14 @@ int RunProgram(CLI::App& app, Session& session, int argc, char** argv) {
   session.stop = stop.get_token();
   try {
     app.parse(argc, argv);
+  } catch (const CLI::ExtrasError& error) {
+    if (!NamesFiles(app)) return app.exit(error) == 0 ? 0 : kUsage;
+    std::fputs(absl::StrCat(session.program,
+                            ": error: more than one file stands where one SOURCE belongs; put a "
+                            "glob in quotes, as in --left 'frames/*.png'\n")
+                   .c_str(),
+               stderr);
+    return kUsage;
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : kUsage;
   }

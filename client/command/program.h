@@ -8,9 +8,9 @@
 
 namespace homing::client {
 
-// Reads the command line, runs Session::run, returns the exit code: 2 for wrong usage, else that of
-// ExitCode. SIGINT and SIGTERM stop the command in good order; a second one ends the program.
-// REQUIRES: no other thread was started.
+// Parses the command line, runs Session::run and returns the exit code: 2 for wrong usage, else
+// that of ExitCode. The first SIGINT or SIGTERM stops the command cleanly; a second one ends the
+// program. REQUIRES: no other thread was started.
 int RunProgram(CLI::App& app, Session& session, int argc, char** argv);
 
 }  // namespace homing::client

@@ -1,4 +1,4 @@
-// A progress bar on stderr, on a terminal only. Source: own design.
+// A progress bar on stderr, on a terminal only.
 #ifndef CLIENT_COMMAND_PROGRESS_H_
 #define CLIENT_COMMAND_PROGRESS_H_
 

@@ -2,19 +2,28 @@
 
 #include <cstdio>
 
+#include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
+#include "absl/strings/strip.h"
+#include "client/rpc_status.h"
+#include "client/server_address.h"
 #include "homing/base/status_macros.h"
 
 namespace homing::client {
 namespace {
 
-// What the one who typed the command can do about a refusal.
+// How the user can react to a refusal by the server.
 std::string AdviceOn(const absl::Status& status) {
+  if (!IsFromServer(status)) return "";
   if (absl::IsUnauthenticated(status)) {
     return "say who this is: --tls-cert and --tls-key, or --token-file";
   }
   if (absl::IsPermissionDenied(status)) {
     return "the server's operator can change roles, or list this robot among a journey's readers";
+  }
+  if (absl::IsResourceExhausted(status) && absl::StrContains(status.message(), "larger than max")) {
+    return "a message was too large: --send flow sends far less, and the server takes more with "
+           "--max-message";
   }
   return "";
 }
@@ -29,6 +38,12 @@ absl::StatusOr<Connection> Session::Connect() const {
 
 void Session::Log(const std::string& text) const {
   if (!quiet) std::fputs(absl::StrCat(program, ": ", text, "\n").c_str(), stderr);
+}
+
+FrameChoice Session::WithReports(FrameChoice choice) const {
+  choice.report = [this](const std::string& text) { Log(text); };
+  choice.stop = stop;
+  return choice;
 }
 
 absl::Status Session::Print(const std::string& line) const {
@@ -48,6 +63,10 @@ void AddCommonFlags(CLI::App& app, Session& session) {
   ConnectionOptions& connection = session.connection;
   app.add_option("--server", connection.address, "Address of homing-server, HOST:PORT")
       ->capture_default_str()
+      ->check([](const std::string& text) {  // CLI11 names the flag itself.
+        const std::string wrong(CheckServerAddress(text).message());
+        return std::string(absl::StripPrefix(wrong, "--server: "));
+      })
       ->envname("HOMING_SERVER");
   app.add_flag("--json", session.json, "One JSON object a line on stdout, nothing else there");
   app.add_flag("--quiet,-q", session.quiet, "Nothing on stderr but errors");

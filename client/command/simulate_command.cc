@@ -1,3 +1,4 @@
+#include <cerrno>
 #include <filesystem>
 #include <fstream>
 #include <memory>
@@ -8,6 +9,7 @@
 #include "client/command/commands.h"
 #include "client/command/json_line.h"
 #include "client/command/progress.h"
+#include "client/file/output_file.h"
 #include "client/png_file.h"
 #include "client/simulator/simulator.h"
 #include "homing/base/status_macros.h"
@@ -27,14 +29,27 @@ std::string SceneText(const std::string& scene) {
   return absl::StartsWith(scene, "sim:") ? scene : absl::StrCat("sim:", scene);
 }
 
+// A shorter drive would leave frames of the longer one behind it.
+absl::Status RefuseOlderDrive(const SimulateFlags& flags) {
+  const std::filesystem::path out(flags.folder);
+  std::error_code error;
+  bool there = std::filesystem::exists(out / "truth.csv", error);
+  for (const char* camera : kCameraNames) {
+    const auto folder = std::filesystem::directory_iterator(out / camera, error);
+    there = there || (!error && folder != std::filesystem::directory_iterator());
+  }
+  if (!there) return absl::OkStatus();
+  return absl::AlreadyExistsError(absl::StrCat(
+      flags.folder, " holds a drive already; remove it, or give --out another folder"));
+}
+
 absl::Status MakeFolders(const SimulateFlags& flags) {
   for (const char* camera : kCameraNames) {
     const auto folder = std::filesystem::path(flags.folder) / (flags.truth_only ? "" : camera);
     std::error_code error;
     std::filesystem::create_directories(folder, error);
     if (error) {
-      return absl::PermissionDeniedError(
-          absl::StrCat("cannot make ", folder.string(), ": ", error.message()));
+      return absl::ErrnoToStatus(errno, absl::StrCat("cannot make ", folder.string()));
     }
   }
   return absl::OkStatus();
@@ -60,7 +75,9 @@ absl::Status WriteInstant(const SimulateFlags& flags, std::int64_t index,
 
 absl::Status WriteAll(const Session& session, const SimulateFlags& flags,
                       const Simulator& simulator, const std::string& truth_path) {
+  errno = 0;
   std::ofstream truth(truth_path, std::ios::trunc);
+  if (!truth) return CannotWrite(truth_path, errno);
   truth << "sequence,camera,metres,landmark\n";
   Progress progress("simulating", simulator.frame_count(), !session.quiet);
   for (std::int64_t index = 0; index < simulator.frame_count(); ++index) {
@@ -69,13 +86,13 @@ absl::Status WriteAll(const Session& session, const SimulateFlags& flags,
     progress.Set(index + 1);
   }
   truth.close();
-  return truth ? absl::OkStatus()
-               : absl::PermissionDeniedError(absl::StrCat("cannot write ", truth_path));
+  return truth ? absl::OkStatus() : CannotWrite(truth_path, errno);
 }
 
 absl::Status Simulate(const Session& session, const SimulateFlags& flags) {
   HOMING_ASSIGN_OR_RETURN(const SimulationSpec spec, ParseSimulationSpec(SceneText(flags.scene)));
   HOMING_ASSIGN_OR_RETURN(const auto simulator, Simulator::Create(spec));
+  HOMING_RETURN_IF_ERROR(RefuseOlderDrive(flags));
   HOMING_RETURN_IF_ERROR(MakeFolders(flags));
   const std::string truth_path = absl::StrCat(flags.folder, "/truth.csv");
   HOMING_RETURN_IF_ERROR(WriteAll(session, flags, *simulator, truth_path));

@@ -1,8 +1,13 @@
 #include "client/opencv/video_source.h"
 
+#include <algorithm>
 #include <chrono>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
 #include <opencv2/core.hpp>
 #include <opencv2/core/utils/logger.hpp>
+#include <opencv2/imgproc.hpp>
 #include <opencv2/videoio.hpp>
 #include <utility>
 
@@ -14,38 +19,59 @@ namespace homing::client {
 
 namespace {
 
+// FFmpeg draws a text file as a video of letters, and takes a single image for one. These are its
+// names of what holds moving pictures; the rest is its own default.
+constexpr char kFfmpegOptions[] =
+    "rtsp_transport;tcp|format_whitelist;mov,mp4,m4a,3gp,3g2,mj2,avi,matroska,webm,mpegts,mpeg,"
+    "mpegvideo,m4v,h261,h263,h264,hevc,av1,obu,ivf,vc1,dirac,flv,asf,ogg,mjpeg,mjpeg_2000,mpjpeg,"
+    "mxf,nut,yuv4mpegpipe,dv,rm,wtv,nsv,gif,apng,rtsp,rtp,sdp,hls,dash";
+// A stream is looked at for a second, not for five, before its first frame.
+constexpr char kLiveOptions[] = "|analyzeduration;1000000";
+constexpr char kNoLines[] = "-8";
+// How often a read is tried again where frames are due: a damaged part fails once or twice.
+constexpr int kAttempts = 64;
+
 std::int64_t NowNanoseconds() {
   return std::chrono::duration_cast<std::chrono::nanoseconds>(
              std::chrono::system_clock::now().time_since_epoch())
       .count();
 }
 
+// Grey: the method needs no more, and colour is three times as large to send.
 SourceFrame ToFrame(const cv::Mat& image) {
+  cv::Mat gray = image;
+  if (image.channels() == 3) cv::cvtColor(image, gray, cv::COLOR_BGR2GRAY);
+  if (!gray.isContinuous()) gray = gray.clone();
   SourceFrame frame;
-  frame.encoding = image.channels() == 1 ? FrameEncoding::kGray8 : FrameEncoding::kBgr8;
-  frame.width = image.cols;
-  frame.height = image.rows;
-  const cv::Mat packed = image.isContinuous() ? image : image.clone();
-  frame.data.assign(reinterpret_cast<const char*>(packed.data), packed.total() * packed.elemSize());
+  frame.encoding = FrameEncoding::kGray8;
+  frame.width = gray.cols;
+  frame.height = gray.rows;
+  frame.data.assign(reinterpret_cast<const char*>(gray.data), gray.total());
   return frame;
 }
 
-// Seeks by reading on from the start: seeking to a key frame would give other frames than the first
-// time.
+// Seeks by reading from the start: seeking to a key frame would give other frames than the first
+// pass.
 class VideoSource : public FrameSource {
  public:
   VideoSource(std::string path, bool live) : path_(std::move(path)), live_(live) {}
 
-  // The first frame is read here, so that what is no video says so at once.
+  // Read the first frame now, so that a file that is no video fails at once.
   absl::Status Open() {
     try {
-      capture_.open(path_);
+      const bool device = absl::StartsWith(path_, "/dev/video");
+      capture_.open(path_, device ? cv::CAP_ANY : cv::CAP_FFMPEG);
       if (!capture_.isOpened()) {
-        return absl::InvalidArgumentError(absl::StrCat(path_, " is no readable video or camera"));
+        return absl::InvalidArgumentError(absl::StrCat(
+            path_,
+            " is no readable video or camera; give a video file, a folder of images, or a "
+            "glob of images in quotes"));
       }
       if (!capture_.read(first_) || first_.empty()) {
         return absl::InvalidArgumentError(absl::StrCat(path_, " has no frames"));
       }
+      promised_ = std::max<std::int64_t>(0, std::llround(capture_.get(cv::CAP_PROP_FRAME_COUNT)));
+      fps_ = capture_.get(cv::CAP_PROP_FPS);
     } catch (const cv::Exception& e) {
       return absl::InvalidArgumentError(absl::StrCat(path_, ": ", e.what()));
     }
@@ -53,19 +79,25 @@ class VideoSource : public FrameSource {
       return absl::InvalidArgumentError(absl::StrCat(path_, " has frames that are not 8 bit"));
     }
     next_ = 0;
+    gap_ = false;
     return absl::OkStatus();
   }
 
   absl::StatusOr<std::optional<SourceFrame>> Next() override {
     HOMING_ASSIGN_OR_RETURN(const cv::Mat image, Read());
     if (image.empty()) {
-      if (live_) return absl::InvalidArgumentError(absl::StrCat(path_, " gives no more frames"));
+      HOMING_RETURN_IF_ERROR(CheckEnd());
       return std::optional<SourceFrame>();
     }
     SourceFrame frame = ToFrame(image);
+    frame.gap_before = std::exchange(gap_, false);
     if (live_) frame.capture_time_ns = NowNanoseconds();
     return std::make_optional(std::move(frame));
   }
+
+  bool live() const override { return live_; }
+  double fps() const override { return !live_ && std::isfinite(fps_) ? std::max(fps_, 0.0) : 0; }
+  std::int64_t promised_size() const override { return live_ ? -1 : promised_; }
 
   bool Seek(std::int64_t index) override {
     if (live_) return false;
@@ -85,7 +117,7 @@ class VideoSource : public FrameSource {
       if (next_ == 0) {
         image = std::exchange(first_, cv::Mat());
       } else {
-        capture_.read(image);
+        ReadOn(&image);
       }
     } catch (const cv::Exception& e) {
       return absl::InvalidArgumentError(absl::StrCat(path_, ": ", e.what()));
@@ -94,19 +126,59 @@ class VideoSource : public FrameSource {
     return image;
   }
 
+  // A video continues behind a damaged part: while frames are missing, a failed read is not the
+  // end.
+  void ReadOn(cv::Mat* image) {
+    int attempts = 0;
+    while (!capture_.read(*image) && !live_ && next_ < promised_ && ++attempts < kAttempts) {
+    }
+    if (!image->empty()) {
+      gap_ = gap_ || attempts > 0;
+      last_ms_ = capture_.get(cv::CAP_PROP_POS_MSEC);
+    }
+  }
+
+  // Where the header has no count of frames, OpenCV makes it of length and rate, which is not
+  // exact.
+  absl::Status CheckEnd() const {
+    if (live_) {
+      std::error_code error;
+      if (std::filesystem::is_fifo(path_, error)) return absl::OkStatus();
+      return absl::DataLossError(absl::StrCat(path_, " gives no more frames"));
+    }
+    const double promised = static_cast<double>(promised_);
+    const bool by_count = static_cast<double>(next_) >= 0.98 * promised - 2;
+    const bool by_time = fps() > 0 && last_ms_ >= (0.98 * promised - 2) * 1000 / fps();
+    if (by_count || by_time) return absl::OkStatus();
+    return absl::DataLossError(absl::StrCat(path_, " is damaged: only ", next_, " of its ",
+                                            promised_, " frames can be read"));
+  }
+
   std::string path_;
   bool live_;
   cv::VideoCapture capture_;
   cv::Mat first_;
+  // Frames that the header promises, 0 if it does not.
+  std::int64_t promised_ = 0;
+  double fps_ = 0;
+  double last_ms_ = 0;
+  bool gap_ = false;
   std::int64_t next_ = 0;
 };
 
 }  // namespace
 
 absl::StatusOr<std::unique_ptr<FrameSource>> OpenVideo(const std::string& path) {
-  // What is wrong is said once, by us.
+  // This module reports each fault once; OpenCV and FFmpeg stay silent. The user's own settings
+  // win.
   cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
-  auto video = std::make_unique<VideoSource>(path, absl::StartsWith(path, "/dev/video"));
+  ::setenv("OPENCV_FFMPEG_LOGLEVEL", kNoLines, /*overwrite=*/0);
+  static const bool users_options = std::getenv("OPENCV_FFMPEG_CAPTURE_OPTIONS") != nullptr;
+  std::error_code error;
+  const bool live = !std::filesystem::is_regular_file(path, error);
+  const std::string options = absl::StrCat(kFfmpegOptions, live ? kLiveOptions : "");
+  if (!users_options) ::setenv("OPENCV_FFMPEG_CAPTURE_OPTIONS", options.c_str(), 1);
+  auto video = std::make_unique<VideoSource>(path, live);
   HOMING_RETURN_IF_ERROR(video->Open());
   return video;
 }

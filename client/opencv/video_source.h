@@ -1,4 +1,4 @@
-// Frames from a video file or a camera of this machine. Source: own design.
+// Frames from a video file or a camera of this machine.
 #ifndef CLIENT_OPENCV_VIDEO_SOURCE_H_
 #define CLIENT_OPENCV_VIDEO_SOURCE_H_
 
@@ -10,7 +10,9 @@
 
 namespace homing::client {
 
-// /dev/videoN is live: no size, no seeking. INVALID_ARGUMENT: not a video, or without frames.
+// Grey frames. Cameras and pipes are live: no size, no seeking. A damaged part is
+// a gap; DATA_LOSS at the end if it comes before what the file promises. INVALID_ARGUMENT: not a
+// video (texts and single images are none), or without frames.
 absl::StatusOr<std::unique_ptr<FrameSource>> OpenVideo(const std::string& path);
 
 }  // namespace homing::client

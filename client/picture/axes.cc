@@ -72,7 +72,7 @@ void Axes::DrawEntry(const LegendEntry& entry, Point at) {
 
 void Axes::Legend(const std::vector<LegendEntry>& entries, LegendPlace place) {
   constexpr double kLineHeight = 15;
-  // Of one letter, on the average.
+  // Average width of a letter.
   constexpr double kLetter = 5.8;
   double widest = 0;
   double sum = 0;

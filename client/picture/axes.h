@@ -1,4 +1,4 @@
-// The frame of a plot: values to points, ticks, labels, legend. Source: own design.
+// The frame of a plot: scales, ticks, labels, legend.
 #ifndef CLIENT_PICTURE_AXES_H_
 #define CLIENT_PICTURE_AXES_H_
 
@@ -20,17 +20,17 @@ struct AxisText {
   std::string y;
 };
 
-// Round values at a round distance inside `range` (which may run downwards), about `count` of them.
+// About `count` round values at a round distance inside `range`, which may be descending.
 std::vector<double> RoundTicks(const Range& range, int count);
 
 struct LegendEntry {
   std::string text;
   Colour colour;
-  // Else a dot.
+  // A line instead of a dot.
   bool line = true;
 };
 
-// Where a legend stands: in a corner of the box, or in one line above it.
+// Position of a legend: in a corner of the box, or in one line above it.
 enum class LegendPlace { kUpperRight, kLowerRight, kAbove };
 
 // Not thread-safe; `canvas` must outlive it.
@@ -38,7 +38,7 @@ class Axes {
  public:
   Axes(Canvas* canvas, const Box& box, const Range& x, const Range& y);
 
-  // Grid, frame, ticks and labels. Call first.
+  // Draws grid, frame, ticks and labels. Call it first.
   void Draw(const AxisText& text);
   void Legend(const std::vector<LegendEntry>& entries,
               LegendPlace place = LegendPlace::kUpperRight);

@@ -10,6 +10,8 @@
 
 #include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
+#include "client/file/output_file.h"
+#include "homing/base/status_macros.h"
 
 namespace homing::client {
 namespace {
@@ -53,6 +55,7 @@ absl::StatusOr<Canvas> Canvas::Create(const std::string& path, double width, dou
   if (!page->svg && !absl::EndsWithIgnoreCase(path, ".png")) {
     return absl::InvalidArgumentError(absl::StrCat(path, " must end in .svg or .png"));
   }
+  HOMING_RETURN_IF_ERROR(CheckWritable(path));
   if (page->svg) {
     page->surface = cairo_svg_surface_create(path.c_str(), width, height);
   } else {
@@ -62,8 +65,8 @@ absl::StatusOr<Canvas> Canvas::Create(const std::string& path, double width, dou
   }
   page->cairo = cairo_create(page->surface);
   if (cairo_status(page->cairo) != CAIRO_STATUS_SUCCESS) {
-    return absl::PermissionDeniedError(absl::StrCat(
-        "cannot write ", path, ": ", cairo_status_to_string(cairo_status(page->cairo))));
+    return absl::UnknownError(absl::StrCat("cannot write ", path, ": ",
+                                           cairo_status_to_string(cairo_status(page->cairo))));
   }
   if (!page->svg) cairo_scale(page->cairo, kPixelsPerPoint, kPixelsPerPoint);
   Canvas canvas(std::move(page));
@@ -172,12 +175,12 @@ void Canvas::Image(const Box& box, const GrayImage& image, double strength) {
   cairo_translate(page_->cairo, box.x, box.y);
   cairo_scale(page_->cairo, box.width / image.width, box.height / image.height);
   cairo_set_source_surface(page_->cairo, surface, 0, 0);
-  // Else the outermost pixels fade into nothing.
+  // Without padding the outermost pixels fade out.
   cairo_pattern_set_extend(cairo_get_source(page_->cairo), CAIRO_EXTEND_PAD);
   cairo_rectangle(page_->cairo, 0, 0, image.width, image.height);
   cairo_fill(page_->cairo);
   cairo_restore(page_->cairo);
-  // An SVG keeps a copy of the image only while its surface lives.
+  // An SVG surface keeps a copy of the image only while the image's surface lives.
   cairo_surface_flush(page_->surface);
   cairo_surface_finish(surface);
   cairo_surface_destroy(surface);
@@ -201,7 +204,7 @@ absl::Status Canvas::Finish() {
     status = cairo_surface_status(page_->surface);
   }
   if (status == CAIRO_STATUS_SUCCESS) return absl::OkStatus();
-  return absl::PermissionDeniedError(
+  return absl::UnknownError(
       absl::StrCat("cannot write ", page_->path, ": ", cairo_status_to_string(status)));
 }
 

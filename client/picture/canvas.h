@@ -1,4 +1,4 @@
-// A page to draw on: SVG or PNG by the file's ending. Source: own design; drawing by cairo.
+// A page to draw on: SVG or PNG by the file's ending. Uses cairo.
 #ifndef CLIENT_PICTURE_CANVAS_H_
 #define CLIENT_PICTURE_CANVAS_H_
 
@@ -20,7 +20,7 @@ struct Colour {
   double alpha = 1;
 };
 
-// Told apart by the colour-blind too (palette of Okabe and Ito).
+// Colours that colour-blind people can distinguish (palette of Okabe and Ito).
 inline constexpr Colour kBlack{0.13, 0.13, 0.13, 1};
 inline constexpr Colour kGray{0.55, 0.55, 0.55, 1};
 inline constexpr Colour kPale{0.88, 0.88, 0.88, 1};
@@ -35,7 +35,7 @@ inline constexpr Colour WithAlpha(Colour colour, double alpha) {
   colour.alpha = alpha;
   return colour;
 }
-// Another colour for each landmark number.
+// A colour for each landmark number.
 Colour ColourOf(std::int64_t number);
 
 struct Point {
@@ -88,9 +88,9 @@ class Canvas {
   void Disc(Point center, double radius, Colour colour);
   void Ring(Point center, double radius, Colour colour, double thickness = 1);
   void Text(Point at, const std::string& text, const TextStyle& style = {});
-  // `image` stretched over `box`, mixed with white: strength 1 is as it is.
+  // Draws `image` scaled to `box`, mixed with white; strength 1: unchanged.
   void Image(const Box& box, const GrayImage& image, double strength);
-  // All that follows is cut off at `box`, until Unclip.
+  // Clips everything drawn until Unclip to `box`.
   void Clip(const Box& box);
   void Unclip();
 

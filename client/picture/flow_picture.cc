@@ -50,7 +50,7 @@ void DrawMean(Canvas& canvas, const Axes& axes, const SeenLandmark& landmark, Co
   canvas.Disc(at, 2, colour);
 }
 
-// The reference's landmark that is nearest in position.
+// The reference's landmark with the nearest mean.
 const SeenLandmark* Nearest(const std::vector<SeenLandmark>& references,
                             const SeenLandmark& landmark) {
   const auto distance = [&](const SeenLandmark& reference) {

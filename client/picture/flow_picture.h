@@ -1,5 +1,5 @@
-// Flow vectors of a frame pair with landmarks and means (as the paper's Figs 3 and 5 to 7), and the
-// histogram of their midpoints with its valley (Fig. 4).
+// Draws the flow vectors of a frame pair with landmarks and means (as the paper's Figs 3 and 5 to
+// 7), and the histogram of their midpoints with its valley (Fig. 4).
 #ifndef CLIENT_PICTURE_FLOW_PICTURE_H_
 #define CLIENT_PICTURE_FLOW_PICTURE_H_
 
@@ -33,7 +33,7 @@ struct FlowPictureOptions {
   bool histogram = false;
 };
 
-// The panels side by side. As Canvas.
+// Draws the panels side by side. Errors of Canvas.
 absl::Status DrawFlow(const std::string& path, const std::vector<FlowPanel>& panels,
                       const FlowPictureOptions& options);
 

@@ -25,7 +25,7 @@ constexpr double kImageHeight = 300;
 // Half the width of a mean's caption.
 constexpr double kCaptionHalf = 76;
 constexpr double kLaneWidth = 860;
-// A digit of a landmark's number; numbers that would overlap are left out.
+// Width of a digit; overlapping numbers are omitted.
 constexpr double kDigitWidth = 6.2;
 
 struct Track {
@@ -89,7 +89,7 @@ void DrawCounts(Canvas& canvas, const Box& box, const JourneyStrip& strip) {
 void DrawMeanOfStep(Canvas& canvas, const Axes& axes, const Fingerprint& fingerprint) {
   const Colour colour = ColourOf(fingerprint.landmark);
   const Point at = axes.At(double{fingerprint.x}, double{fingerprint.y});
-  // The area is in proportion to the number of vectors.
+  // The area is proportional to the number of vectors.
   canvas.Disc(at, 2 * std::sqrt(fingerprint.count), WithAlpha(colour, 0.3));
   canvas.Ring(at, 6, colour, 2.2);
   const TextStyle style{10.5, Align::kCenter};

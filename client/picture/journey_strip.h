@@ -1,5 +1,5 @@
-// A journey's map as a strip: the landmarks of either side along the steps, with the number of
-// vectors of each fingerprint. Source: own design.
+// Draws a journey's map as a strip: the landmarks of both sides over the steps, with the number of
+// vectors of each fingerprint.
 #ifndef CLIENT_PICTURE_JOURNEY_STRIP_H_
 #define CLIENT_PICTURE_JOURNEY_STRIP_H_
 
@@ -30,10 +30,10 @@ struct JourneyStrip {
   std::array<int, 2> heights{};
 };
 
-// As Canvas.
+// Errors of Canvas.
 absl::Status DrawJourneyStrip(const std::string& path, const JourneyStrip& strip);
 
-// What the robot saw at one step: means and numbers, in the image of either side.
+// Draws one step: means and counts, in the image of each side.
 absl::Status DrawJourneyStep(const std::string& path, const JourneyStrip& strip, std::int64_t step);
 
 }  // namespace homing::client

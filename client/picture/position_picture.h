@@ -1,5 +1,4 @@
-// The way home: where the robot was believed to be and where it was, and how sure the answer was.
-// Source: own design.
+// Draws the way home: the believed and the true place, and the confidence of the answer.
 #ifndef CLIENT_PICTURE_POSITION_PICTURE_H_
 #define CLIENT_PICTURE_POSITION_PICTURE_H_
 
@@ -14,7 +13,7 @@ namespace homing::client {
 
 struct BelievedPlace {
   std::int64_t sequence = 0;
-  // Along the route from home; metres, or steps where no truth is known. Absent: lost.
+  // Along the route from home; metres, or steps if no truth is known. Absent: lost.
   std::optional<double> believed;
   std::optional<double> truth;
   // Of the interval, 0..1.
@@ -29,7 +28,7 @@ struct PositionPicture {
   std::vector<BelievedPlace> places;
 };
 
-// As Canvas.
+// Errors of Canvas.
 absl::Status DrawPositions(const std::string& path, const PositionPicture& picture);
 
 }  // namespace homing::client

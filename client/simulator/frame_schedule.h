@@ -1,4 +1,4 @@
-// Which of the frames that cameras take arrive: some are lost, some come twice. Source: own design.
+// Which of the frames that cameras take arrive: some are lost, some come twice.
 #ifndef CLIENT_SIMULATOR_FRAME_SCHEDULE_H_
 #define CLIENT_SIMULATOR_FRAME_SCHEDULE_H_
 

@@ -1,5 +1,4 @@
-// Landmarks while a world is being made: numbered along the route, some of them left out. Source:
-// own design.
+// The landmarks of a world under construction: numbered along the route, some of them left out.
 #ifndef CLIENT_SIMULATOR_LANDMARK_LIST_H_
 #define CLIENT_SIMULATOR_LANDMARK_LIST_H_
 

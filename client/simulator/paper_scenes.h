@@ -1,6 +1,6 @@
 // The scenes of the paper's experiments (IV, Figs 3 to 7): few textured landmarks to the left of a
-// straight route before a plain background, nothing to the right. Sizes and textures, which the
-// paper does not give: own design.
+// straight route before a plain background, nothing to the right. The
+// paper does not give sizes and textures.
 #ifndef CLIENT_SIMULATOR_PAPER_SCENES_H_
 #define CLIENT_SIMULATOR_PAPER_SCENES_H_
 

@@ -1,4 +1,4 @@
-// Brightness of every pixel of a view, before exposure and noise. Source: own design.
+// Brightness of every pixel of a view, before exposure and noise.
 #ifndef CLIENT_SIMULATOR_RENDERER_H_
 #define CLIENT_SIMULATOR_RENDERER_H_
 

@@ -1,4 +1,4 @@
-// The line that the outbound robot follows. Source: own design.
+// The line that the outbound robot follows.
 #ifndef CLIENT_SIMULATOR_ROUTE_H_
 #define CLIENT_SIMULATOR_ROUTE_H_
 

@@ -1,4 +1,4 @@
-// What there is to see along a route. Source: own design.
+// The surfaces along a route and what they look like.
 #ifndef CLIENT_SIMULATOR_SCENE_H_
 #define CLIENT_SIMULATOR_SCENE_H_
 

@@ -1,4 +1,4 @@
-// A simulator of any scene along any route. Source: own design.
+// A simulator of any scene along any route.
 #ifndef CLIENT_SIMULATOR_SCENE_SIMULATOR_H_
 #define CLIENT_SIMULATOR_SCENE_SIMULATOR_H_
 

@@ -1,5 +1,5 @@
 // Counter-based random numbers: the same key gives the same sequence on every machine, in any
-// order. Source: own design; the mixing function is SplitMix64 (Steele, Lea, Flood 2014).
+// order. The mixing function is SplitMix64 (Steele, Lea, Flood 2014).
 #ifndef CLIENT_SIMULATOR_SEEDED_RANDOM_H_
 #define CLIENT_SIMULATOR_SEEDED_RANDOM_H_
 

@@ -1,4 +1,4 @@
-// Brightness to image: exposure and noise. Source: own design.
+// Brightness to image: exposure and noise.
 #ifndef CLIENT_SIMULATOR_SENSOR_H_
 #define CLIENT_SIMULATOR_SENSOR_H_
 

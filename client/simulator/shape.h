@@ -1,5 +1,5 @@
-// The surfaces of the simulated world, and the same seen from one camera. Source: own design;
-// spheres, towers, parallelograms and hills as in the paper (III, Figs 3 to 7).
+// The surfaces of the simulated world, and their images in one camera: spheres,
+// towers, parallelograms and hills as in the paper (III, Figs 3 to 7).
 #ifndef CLIENT_SIMULATOR_SHAPE_H_
 #define CLIENT_SIMULATOR_SHAPE_H_
 

@@ -1,4 +1,4 @@
-// Limits of a simulation. Source: own design.
+// Limits of a simulation.
 #ifndef CLIENT_SIMULATOR_SIMULATION_SPEC_H_
 #define CLIENT_SIMULATOR_SIMULATION_SPEC_H_
 

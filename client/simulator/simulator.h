@@ -1,5 +1,5 @@
 // The simulated robot: two sideways cameras drive a route past textured landmarks, with exact
-// ground truth. Source: own design after the paper's simulation (III, IV). Deterministic: same
+// ground truth. Follows the paper's simulation (III, IV). Deterministic: same
 // spec, same bytes.
 #ifndef CLIENT_SIMULATOR_SIMULATOR_H_
 #define CLIENT_SIMULATOR_SIMULATOR_H_

@@ -1,5 +1,5 @@
-// The one pool of eight textures that all places draw from. Source: own design; the paper's
-// landmarks are textured so that they give much flow (III).
+// All places draw from one pool of eight textures. The paper's landmarks are textured, so that they
+// give much flow (III).
 #ifndef CLIENT_SIMULATOR_TEXTURE_POOL_H_
 #define CLIENT_SIMULATOR_TEXTURE_POOL_H_
 

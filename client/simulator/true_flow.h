@@ -1,4 +1,4 @@
-// Exact flow between two views. Source: own design.
+// Exact flow between two views.
 #ifndef CLIENT_SIMULATOR_TRUE_FLOW_H_
 #define CLIENT_SIMULATOR_TRUE_FLOW_H_
 

@@ -1,4 +1,4 @@
-// A scene as one camera sees it: which surface at which depth at each pixel. Source: own design.
+// A scene as one camera sees it: which surface at which depth at each pixel.
 #ifndef CLIENT_SIMULATOR_VIEW_H_
 #define CLIENT_SIMULATOR_VIEW_H_
 

@@ -1,6 +1,5 @@
-// The two worlds: landmarks as in the paper, and a street. Source: own design; kinds of landmarks
-// from the paper (III, Figs 3 to 7). All draw from the one texture pool; another seed is another
-// route of the same kind.
+// The two worlds: landmarks as in the paper (III, Figs 3 to 7), and a street. Both draw from one
+// texture pool. Another seed gives another route of the same kind.
 #ifndef CLIENT_SIMULATOR_WORLDS_H_
 #define CLIENT_SIMULATOR_WORLDS_H_
 

@@ -1,4 +1,4 @@
-// A request over a limit of whoever decodes it: never worth a retry. Source: own design.
+// An error for a request that exceeds a limit: a retry cannot succeed.
 #ifndef HOMING_BASE_LIMIT_ERROR_H_
 #define HOMING_BASE_LIMIT_ERROR_H_
 
@@ -6,15 +6,18 @@
 
 #include "absl/status/status.h"
 #include "absl/strings/cord.h"
+#include "homing/base/field_error.h"
 
 namespace homing {
 
-// Where an error keeps a word for programs.
+// The payload that holds a machine-readable reason.
 inline constexpr char kReasonPayload[] = "homing/reason";
 
-// INVALID_ARGUMENT whose reason is `limit`, for example "PIXELS".
-inline absl::Status LimitError(const std::string& limit, const std::string& message) {
-  absl::Status status = absl::InvalidArgumentError(message);
+// MustBe(field, value, rule) whose reason is `limit`, for example "PIXELS".
+template <typename T>
+absl::Status LimitError(const std::string& limit, const std::string& field, const T& value,
+                        const std::string& rule) {
+  absl::Status status = MustBe(field, value, rule);
   status.SetPayload(kReasonPayload, absl::Cord(limit));
   return status;
 }

@@ -1,44 +1,35 @@
-// One bound of one option, as an error that names field, value and limit. Source: own design.
+// Checks that a value is within its bounds.
 #ifndef HOMING_BASE_RANGE_CHECK_H_
 #define HOMING_BASE_RANGE_CHECK_H_
 
 #include <string>
 
 #include "absl/status/status.h"
-#include "absl/strings/cord.h"
 #include "absl/strings/str_cat.h"
+#include "homing/base/field_error.h"
 
 namespace homing {
 
 // INVALID_ARGUMENT unless low <= value <= high (NaN is outside).
 template <typename T>
-absl::Status CheckRange(const std::string& field, T value, T low, T high) {
+absl::Status CheckRange(const std::string& field, T value, T low, T high,
+                        const std::string& unit = "") {
   if (value >= low && value <= high) {
     return absl::OkStatus();
   }
-  return absl::InvalidArgumentError(
-      absl::StrCat(field, " is ", value, ", must be in [", low, ", ", high, "]"));
+  return MustBe(field, value,
+                absl::StrCat("in [", low, ", ", high, "]", unit.empty() ? "" : " ", unit));
 }
 
 // INVALID_ARGUMENT unless low < value <= high (NaN is outside).
 template <typename T>
-absl::Status CheckAbove(const std::string& field, T value, T low, T high) {
+absl::Status CheckAbove(const std::string& field, T value, T low, T high,
+                        const std::string& unit = "") {
   if (value > low && value <= high) {
     return absl::OkStatus();
   }
-  return absl::InvalidArgumentError(
-      absl::StrCat(field, " is ", value, ", must be in (", low, ", ", high, "]"));
-}
-
-// The same error with the name of what holds the field before it: "flow: cell_px is ...".
-inline absl::Status Within(const std::string& holder, const absl::Status& status) {
-  if (status.ok()) {
-    return status;
-  }
-  absl::Status longer(status.code(), absl::StrCat(holder, ": ", std::string(status.message())));
-  status.ForEachPayload(
-      [&](absl::string_view url, const absl::Cord& value) { longer.SetPayload(url, value); });
-  return longer;
+  return MustBe(field, value,
+                absl::StrCat("in (", low, ", ", high, "]", unit.empty() ? "" : " ", unit));
 }
 
 }  // namespace homing

@@ -1,6 +1,5 @@
 // Pinhole camera with distortion and yaw: raw flow vectors to those of an ideal camera that looks
-// square to the direction of travel. Source: own design (points are undistorted before anything
-// else).
+// square to the direction of travel. Points are undistorted first.
 #ifndef HOMING_FLOW_CAMERA_H_
 #define HOMING_FLOW_CAMERA_H_
 

@@ -1,5 +1,5 @@
 // Shi-Tomasi corners by an absolute threshold, one a cell. Source: paper II-B, eqs 3 to 5 (A^T A
-// must be well conditioned); absolute threshold and suppression by cells: own design, so that a
+// must be well conditioned). The threshold is absolute and suppression works by cells, so that a
 // bright sign does not change the count elsewhere.
 #ifndef HOMING_FLOW_CORNER_DETECTOR_H_
 #define HOMING_FLOW_CORNER_DETECTOR_H_

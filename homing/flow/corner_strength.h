@@ -1,5 +1,5 @@
 // How much of a corner each pixel is: the smaller eigenvalue of eq 3's matrix. Source: paper II-B,
-// eqs 3 to 5; own design in that only what the next row needs is kept between rows.
+// eqs 3 to 5. Only what the next row needs is kept between rows.
 #ifndef HOMING_FLOW_CORNER_STRENGTH_H_
 #define HOMING_FLOW_CORNER_STRENGTH_H_
 

@@ -8,6 +8,8 @@
 namespace homing {
 namespace {
 
+constexpr int kMaxWorkingWidth = 2048;
+
 struct Interval {
   double low;
   double high;
@@ -31,12 +33,30 @@ absl::Status CheckOdd(const std::string& field, int value) {
   return absl::InvalidArgumentError(absl::StrCat("flow.", field, " ", value, " is not odd"));
 }
 
+// One corner a cell, each tracked by its window: together they say how long a pair of frames takes.
+// The limit is a fraction of a second.
+absl::Status CheckWork(const FlowOptions& options) {
+  constexpr double kMostWindowPixels = 1 << 26;
+  const int width = options.working_width_px == 0 ? kMaxWorkingWidth : options.working_width_px;
+  const double side = static_cast<double>(width) * options.window_px;
+  const int least_cell = static_cast<int>(std::ceil(side / std::sqrt(kMostWindowPixels)));
+  if (options.cell_px >= least_cell) {
+    return absl::OkStatus();
+  }
+  return absl::InvalidArgumentError(
+      absl::StrCat("flow.cell_px ", options.cell_px, " must be at least ", least_cell,
+                   " px with a window_px of ", options.window_px, " and a working width of ", width,
+                   " px: a pair of frames would take too long"));
+}
+
 }  // namespace
 
 absl::Status Validate(const FlowOptions& options) {
-  HOMING_RETURN_IF_ERROR(CheckWithin("working_width_px", options.working_width_px, {0, 2048}));
+  HOMING_RETURN_IF_ERROR(
+      CheckWithin("working_width_px", options.working_width_px, {0, kMaxWorkingWidth}));
   if (options.working_width_px != 0) {
-    HOMING_RETURN_IF_ERROR(CheckWithin("working_width_px", options.working_width_px, {16, 2048}));
+    HOMING_RETURN_IF_ERROR(
+        CheckWithin("working_width_px", options.working_width_px, {16, kMaxWorkingWidth}));
   }
   HOMING_RETURN_IF_ERROR(CheckWithin("smoothing_sigma_px", options.smoothing_sigma_px, {0, 8}));
   HOMING_RETURN_IF_ERROR(
@@ -49,7 +69,9 @@ absl::Status Validate(const FlowOptions& options) {
   HOMING_RETURN_IF_ERROR(CheckWithin("window_px", options.window_px, {5, 63}));
   HOMING_RETURN_IF_ERROR(CheckOdd("window_px", options.window_px));
   HOMING_RETURN_IF_ERROR(CheckWithin("pyramid_levels", options.pyramid_levels, {0, 6}));
-  return CheckWithin("max_forward_backward_px", options.max_forward_backward_px, {0, 5, false});
+  HOMING_RETURN_IF_ERROR(
+      CheckWithin("max_forward_backward_px", options.max_forward_backward_px, {0, 5, false}));
+  return CheckWork(options);
 }
 
 }  // namespace homing

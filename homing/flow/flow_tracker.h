@@ -1,6 +1,6 @@
 // Frames of one camera to flow vectors: locally normalised and smoothed image, Shi-Tomasi corners
 // with an absolute threshold, pyramidal Lucas-Kanade, forward-backward check.
-// Source: paper II-B, eqs 1 to 5; normalisation, smoothing and cell-wise suppression: own design.
+// Source: paper II-B, eqs 1 to 5. Normalisation, smoothing and cell-wise suppression are added.
 #ifndef HOMING_FLOW_FLOW_TRACKER_H_
 #define HOMING_FLOW_FLOW_TRACKER_H_
 

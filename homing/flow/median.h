@@ -1,4 +1,4 @@
-// The median of numbers. Source: own design.
+// The median of numbers.
 #ifndef HOMING_FLOW_MEDIAN_H_
 #define HOMING_FLOW_MEDIAN_H_
 

@@ -1,5 +1,4 @@
-// Standing, turning on the spot, or moving: told from the flow alone. Source: own design (METHOD
-// 1).
+// Decides from the flow alone whether the camera stands, turns on the spot or moves.
 #ifndef HOMING_FLOW_MOTION_H_
 #define HOMING_FLOW_MOTION_H_
 

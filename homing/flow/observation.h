@@ -1,5 +1,4 @@
 // One instant of the robot as it comes in: frames or flow vectors of either camera or both.
-// Source: own design.
 #ifndef HOMING_FLOW_OBSERVATION_H_
 #define HOMING_FLOW_OBSERVATION_H_
 

@@ -1,5 +1,5 @@
 // The flow that a turning camera sees: it does not depend on how far things are, so three numbers
-// explain all of it. Source: own design, after the flow of a rigid rotation.
+// explain all of it. It is the flow of a rigid rotation.
 #ifndef HOMING_FLOW_ROTATION_FIT_H_
 #define HOMING_FLOW_ROTATION_FIT_H_
 

@@ -1,6 +1,6 @@
 // Lens models and their inverses. k1, k2, p1, p2, k3: Brown, "Decentering distortion of lenses",
 // 1966; k4, k5, k6: a divisor of the radial part, as OpenCV has it. Fisheye: Kannala and Brandt, "A
-// generic camera model", 2006. Inverses by Newton's method, own design.
+// generic camera model", 2006. Inverses by Newton's method.
 #ifndef HOMING_FLOW_UNDISTORTION_H_
 #define HOMING_FLOW_UNDISTORTION_H_
 

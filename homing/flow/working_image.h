@@ -1,6 +1,6 @@
 // The image that corners are found in and tracked: resized, smoothed, and normalised by local mean
-// and deviation, so that light and exposure drop out. Source: own design; it serves the brightness
-// constancy that the paper presupposes (II-B, 1).
+// and deviation, so that light and exposure drop out. The paper's method
+// needs constant brightness (II-B, 1).
 #ifndef HOMING_FLOW_WORKING_IMAGE_H_
 #define HOMING_FLOW_WORKING_IMAGE_H_
 

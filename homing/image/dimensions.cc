@@ -3,26 +3,23 @@
 #include <string>
 
 #include "absl/strings/str_cat.h"
+#include "homing/base/field_error.h"
 #include "homing/base/limit_error.h"
+#include "homing/base/range_check.h"
 #include "homing/base/status_macros.h"
 
 namespace homing {
 namespace {
 
 absl::Status CheckSide(const std::string& field, std::int64_t side, const DecodeLimits& limits) {
-  if (side >= limits.min_side_px && side <= limits.max_side_px) {
-    return absl::OkStatus();
-  }
-  return absl::InvalidArgumentError(absl::StrCat(
-      field, " ", side, " px is outside [", limits.min_side_px, ", ", limits.max_side_px, "] px"));
+  return CheckRange<std::int64_t>(field, side, limits.min_side_px, limits.max_side_px, "px");
 }
 
 absl::Status CheckSame(const std::string& field, std::int64_t declared, std::int64_t header) {
   if (declared == 0 || declared == header) {
     return absl::OkStatus();
   }
-  return absl::InvalidArgumentError(
-      absl::StrCat(field, " ", declared, " px differs from the image header's ", header, " px"));
+  return MustBe(field, declared, absl::StrCat("0 or the image header's ", header, " px"));
 }
 
 }  // namespace
@@ -31,9 +28,8 @@ absl::Status CheckLimits(const Dimensions& dimensions, const DecodeLimits& limit
   HOMING_RETURN_IF_ERROR(CheckSide("frame.width", dimensions.width, limits));
   HOMING_RETURN_IF_ERROR(CheckSide("frame.height", dimensions.height, limits));
   if (dimensions.width * dimensions.height > limits.max_pixels) {
-    return LimitError("PIXELS",
-                      absl::StrCat("frame of ", dimensions.width, " x ", dimensions.height,
-                                   " px is over the limit of ", limits.max_pixels, " pixels"));
+    return LimitError("PIXELS", "frame", absl::StrCat(dimensions.width, " x ", dimensions.height),
+                      absl::StrCat("at most ", limits.max_pixels, " pixels"));
   }
   return absl::OkStatus();
 }

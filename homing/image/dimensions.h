@@ -1,4 +1,4 @@
-// The bounds of an image, checked before anything is allocated. Source: own design.
+// Checks the size of an image before anything is allocated.
 #ifndef HOMING_IMAGE_DIMENSIONS_H_
 #define HOMING_IMAGE_DIMENSIONS_H_
 
@@ -9,7 +9,7 @@
 
 namespace homing {
 
-// Pixels, as a header or a frame says; wider than int, so that no claim overflows.
+// Pixels, as in a header or a frame; 64 bits, so that no value overflows.
 struct Dimensions {
   std::int64_t width = 0;
   std::int64_t height = 0;
@@ -18,7 +18,7 @@ struct Dimensions {
 // INVALID_ARGUMENT: a side or the number of pixels outside the limits.
 absl::Status CheckLimits(const Dimensions& dimensions, const DecodeLimits& limits);
 
-// INVALID_ARGUMENT: the frame gives a width or height, and the image's header another.
+// INVALID_ARGUMENT: the frame's width or height differs from the image header's.
 absl::Status CheckDeclared(const Frame& frame, const Dimensions& header);
 
 }  // namespace homing

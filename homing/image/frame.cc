@@ -4,7 +4,9 @@
 #include <string>
 
 #include "absl/strings/str_cat.h"
+#include "homing/base/field_error.h"
 #include "homing/image/jpeg_decoder.h"
+#include "homing/image/orientation.h"
 #include "homing/image/png_decoder.h"
 #include "homing/image/raw_decoder.h"
 
@@ -22,9 +24,8 @@ absl::StatusOr<cv::Mat> Decode(const Frame& frame, const DecodeLimits& limits) {
     case FrameEncoding::kPng:
       return DecodePng(frame, limits);
   }
-  return absl::InvalidArgumentError(absl::StrCat("frame.encoding ",
-                                                 static_cast<int>(frame.encoding),
-                                                 " is not one of GRAY8, RGB8, BGR8, JPEG, PNG"));
+  return MustBe("frame.encoding", static_cast<int>(frame.encoding),
+                "GRAY8, RGB8, BGR8, JPEG or PNG");
 }
 
 }  // namespace
@@ -32,7 +33,11 @@ absl::StatusOr<cv::Mat> Decode(const Frame& frame, const DecodeLimits& limits) {
 absl::StatusOr<cv::Mat> DecodeGray(const Frame& frame, const DecodeLimits& limits) {
   // OpenCV throws when memory runs out; no exception leaves this folder.
   try {
-    return Decode(frame, limits);
+    absl::StatusOr<cv::Mat> gray = Decode(frame, limits);
+    const bool file =
+        frame.encoding == FrameEncoding::kJpeg || frame.encoding == FrameEncoding::kPng;
+    if (!gray.ok() || !file) return gray;
+    return TurnUpright(*gray, ExifOrientation(frame.data));
   } catch (const cv::Exception& error) {
     return absl::ResourceExhaustedError(absl::StrCat("frame could not be decoded: ", error.err));
   } catch (const std::bad_alloc&) {

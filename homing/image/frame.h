@@ -1,5 +1,5 @@
-// One image as it came over the wire or from a file, and its bounded decoding to grey.
-// Source: own design; the paper needs grey values only (II-B).
+// One image from the wire or a file, and its bounded decoding to grey. The paper needs grey values
+// only (II-B).
 #ifndef HOMING_IMAGE_FRAME_H_
 #define HOMING_IMAGE_FRAME_H_
 
@@ -16,7 +16,7 @@ enum class FrameEncoding { kGray8, kRgb8, kBgr8, kJpeg, kPng };
 // Does not own its bytes.
 struct Frame {
   FrameEncoding encoding = FrameEncoding::kGray8;
-  // Pixels. Required for raw encodings; for JPEG and PNG 0, or what the image's header says.
+  // Pixels. Required for raw encodings; for JPEG and PNG 0, or the image header's value.
   int width = 0;
   int height = 0;
   std::string_view data;
@@ -29,9 +29,11 @@ struct DecodeLimits {
   std::int64_t max_pixels = 16 * 1024 * 1024;
 };
 
-// Grey image, CV_8UC1, height x width; it owns its pixels. Colour is reduced by
-// 0.299 R + 0.587 G + 0.114 B. INVALID_ARGUMENT: dimensions outside the limits or unlike the
-// header, wrong buffer length, bytes that are no image or end too early. Thread-safe.
+// Grey image, CV_8UC1, height x width; it owns its pixels. Colour becomes 0.299 R + 0.587 G + 0.114
+// B. 16-bit grey is stretched to the range that it uses. JPEG and PNG are turned by their EXIF
+// orientation, so width and height may change places. INVALID_ARGUMENT: dimensions outside the
+// limits or different from the header, wrong length of the data, or data that is no complete image.
+// Thread-safe.
 absl::StatusOr<cv::Mat> DecodeGray(const Frame& frame, const DecodeLimits& limits = {});
 
 }  // namespace homing

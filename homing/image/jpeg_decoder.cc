@@ -1,56 +1,106 @@
 #include "homing/image/jpeg_decoder.h"
 
-#include <turbojpeg.h>
-
-#include <memory>
+#include <csetjmp>
+#include <cstdio>
 #include <string>
 
+// After <cstdio>, which it needs.
+#include <jerror.h>
+#include <jpeglib.h>
+
 #include "absl/strings/str_cat.h"
+#include "homing/base/field_error.h"
 #include "homing/base/status_macros.h"
 #include "homing/image/dimensions.h"
 
 namespace homing {
 namespace {
 
-struct HandleCloser {
-  void operator()(void* handle) const { tjDestroy(handle); }
-};
-using Handle = std::unique_ptr<void, HandleCloser>;
+// A progressive file of more scans than this is made to waste time.
+constexpr int kMaxScans = 500;
 
-absl::Status JpegError(const Handle& handle) {
-  return absl::InvalidArgumentError(
-      absl::StrCat("frame.data is no complete JPEG image: ", tjGetErrorStr2(handle.get())));
+// libjpeg's state of one image. `jump` is where its errors end; no object with a destructor may
+// live between setjmp and a call into libjpeg.
+struct Decoder {
+  Decoder() = default;
+  ~Decoder() { jpeg_destroy_decompress(&jpeg); }
+  Decoder(const Decoder&) = delete;
+  Decoder& operator=(const Decoder&) = delete;
+
+  jpeg_decompress_struct jpeg{};
+  jpeg_error_mgr errors{};
+  jpeg_progress_mgr progress{};
+  std::jmp_buf jump{};
+  char message[JMSG_LENGTH_MAX] = "";
+};
+
+[[noreturn]] void Fail(j_common_ptr jpeg) {
+  auto* decoder = static_cast<Decoder*>(jpeg->client_data);
+  jpeg->err->format_message(jpeg, decoder->message);
+  std::longjmp(decoder->jump, 1);
+}
+
+// A warning means invented pixels (a file that ends early): as bad as an error. Bytes
+// between the pixels and the next marker are harmless: many cameras write them.
+void Warn(j_common_ptr jpeg, int level) {
+  if (level < 0 && jpeg->err->msg_code != JWRN_EXTRANEOUS_DATA) Fail(jpeg);
+}
+
+void LimitScans(j_common_ptr jpeg) {
+  auto* decoder = static_cast<Decoder*>(jpeg->client_data);
+  if (decoder->jpeg.input_scan_number <= kMaxScans) return;
+  std::snprintf(decoder->message, sizeof(decoder->message), "it has more than %d scans", kMaxScans);
+  std::longjmp(decoder->jump, 1);
+}
+
+void Begin(Decoder* decoder) {
+  decoder->jpeg.err = jpeg_std_error(&decoder->errors);
+  decoder->errors.error_exit = &Fail;
+  decoder->errors.emit_message = &Warn;
+  decoder->jpeg.client_data = decoder;
+}
+
+// False: `message` says why.
+bool ReadHeader(Decoder* decoder, std::string_view bytes) {
+  if (setjmp(decoder->jump) != 0) return false;
+  jpeg_create_decompress(&decoder->jpeg);
+  decoder->progress.progress_monitor = &LimitScans;
+  decoder->jpeg.progress = &decoder->progress;
+  jpeg_mem_src(&decoder->jpeg, reinterpret_cast<const unsigned char*>(bytes.data()),
+               static_cast<unsigned long>(bytes.size()));
+  jpeg_read_header(&decoder->jpeg, TRUE);
+  return true;
+}
+
+// `pixels`: rows of `step` bytes.
+bool ReadPixels(Decoder* decoder, unsigned char* pixels, std::size_t step) {
+  if (setjmp(decoder->jump) != 0) return false;
+  decoder->jpeg.out_color_space = JCS_GRAYSCALE;
+  decoder->jpeg.dct_method = JDCT_ISLOW;
+  jpeg_start_decompress(&decoder->jpeg);
+  while (decoder->jpeg.output_scanline < decoder->jpeg.output_height) {
+    JSAMPROW row = pixels + decoder->jpeg.output_scanline * step;
+    jpeg_read_scanlines(&decoder->jpeg, &row, 1);
+  }
+  jpeg_finish_decompress(&decoder->jpeg);
+  return true;
+}
+
+absl::Status JpegError(const Decoder& decoder) {
+  return FieldError("frame.data", absl::StrCat("is no complete JPEG image: ", decoder.message));
 }
 
 }  // namespace
 
 absl::StatusOr<cv::Mat> DecodeJpeg(const Frame& frame, const DecodeLimits& limits) {
-  const Handle handle(tjInitDecompress());
-  if (handle == nullptr) {
-    return absl::InternalError("no JPEG decoder could be made");
-  }
-  const auto* bytes = reinterpret_cast<const unsigned char*>(frame.data.data());
-  const auto length = static_cast<unsigned long>(frame.data.size());
-  int width = 0;
-  int height = 0;
-  int subsampling = 0;
-  int color_space = 0;
-  if (tjDecompressHeader3(handle.get(), bytes, length, &width, &height, &subsampling,
-                          &color_space) != 0) {
-    return JpegError(handle);
-  }
-  if (width == 0) {
-    return absl::InvalidArgumentError("frame.data is no complete JPEG image: it has no size");
-  }
-  HOMING_RETURN_IF_ERROR(CheckLimits({width, height}, limits));
-  HOMING_RETURN_IF_ERROR(CheckDeclared(frame, {width, height}));
-  cv::Mat gray(height, width, CV_8UC1);
-  // A warning means pixels that nobody sent (a file that ends early): as bad as an error.
-  constexpr int kFlags = TJFLAG_ACCURATEDCT | TJFLAG_STOPONWARNING | TJFLAG_LIMITSCANS;
-  if (tjDecompress2(handle.get(), bytes, length, gray.data, width, static_cast<int>(gray.step[0]),
-                    height, TJPF_GRAY, kFlags) != 0) {
-    return JpegError(handle);
-  }
+  Decoder decoder;
+  Begin(&decoder);
+  if (!ReadHeader(&decoder, frame.data)) return JpegError(decoder);
+  const Dimensions size{decoder.jpeg.image_width, decoder.jpeg.image_height};
+  HOMING_RETURN_IF_ERROR(CheckLimits(size, limits));
+  HOMING_RETURN_IF_ERROR(CheckDeclared(frame, size));
+  cv::Mat gray(static_cast<int>(size.height), static_cast<int>(size.width), CV_8UC1);
+  if (!ReadPixels(&decoder, gray.data, gray.step[0])) return JpegError(decoder);
   return gray;
 }
 

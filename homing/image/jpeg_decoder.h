@@ -1,4 +1,4 @@
-// JPEG bytes to grey. Source: own design.
+// JPEG bytes to grey.
 #ifndef HOMING_IMAGE_JPEG_DECODER_H_
 #define HOMING_IMAGE_JPEG_DECODER_H_
 

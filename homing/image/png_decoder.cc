@@ -7,13 +7,15 @@
 #include <string>
 
 #include "absl/strings/str_cat.h"
+#include "homing/base/field_error.h"
 #include "homing/base/status_macros.h"
+#include "homing/image/deep_gray.h"
 #include "homing/image/dimensions.h"
 
 namespace homing {
 namespace {
 
-// Ancillary chunks (text, profiles) may inflate to this many bytes together.
+// Limit on the inflated size of all ancillary chunks (text, profiles), bytes.
 constexpr std::size_t kChunkBytes = 1 << 20;
 
 struct ContextCloser {
@@ -22,11 +24,10 @@ struct ContextCloser {
 using Context = std::unique_ptr<spng_ctx, ContextCloser>;
 
 absl::Status PngError(int code) {
-  return absl::InvalidArgumentError(
-      absl::StrCat("frame.data is no complete PNG image: ", spng_strerror(code)));
+  return FieldError("frame.data", absl::StrCat("is no complete PNG image: ", spng_strerror(code)));
 }
 
-// Pixels of `format`, 8 bits a channel, in `type`; then everything up to the end of the file.
+// Decodes to `format`, 8 bits a channel, as `type`; then reads the rest of the file.
 absl::StatusOr<cv::Mat> DecodePixels(spng_ctx* context, const spng_ihdr& header, spng_format format,
                                      int type) {
   cv::Mat pixels(static_cast<int>(header.height), static_cast<int>(header.width), type);
@@ -59,7 +60,19 @@ absl::StatusOr<cv::Mat> DecodePng(const Frame& frame, const DecodeLimits& limits
   const Dimensions dimensions{header.width, header.height};
   HOMING_RETURN_IF_ERROR(CheckLimits(dimensions, limits));
   HOMING_RETURN_IF_ERROR(CheckDeclared(frame, dimensions));
-  // Deep grey, colour, palette and alpha all become RGB8 first; alpha is dropped.
+  if (header.bit_depth == 16 && header.color_type == SPNG_COLOR_TYPE_GRAYSCALE) {
+    HOMING_ASSIGN_OR_RETURN(const cv::Mat deep,
+                            DecodePixels(context.get(), header, SPNG_FMT_PNG, CV_16UC1));
+    return StretchToGray8(deep);
+  }
+  if (header.bit_depth == 16 && header.color_type == SPNG_COLOR_TYPE_GRAYSCALE_ALPHA) {
+    HOMING_ASSIGN_OR_RETURN(const cv::Mat with_alpha,
+                            DecodePixels(context.get(), header, SPNG_FMT_PNG, CV_16UC2));
+    cv::Mat deep;
+    cv::extractChannel(with_alpha, deep, 0);
+    return StretchToGray8(deep);
+  }
+  // Colour, palette and alpha all become RGB8 first; alpha is dropped.
   if (header.color_type == SPNG_COLOR_TYPE_GRAYSCALE && header.bit_depth <= 8) {
     return DecodePixels(context.get(), header, SPNG_FMT_G8, CV_8UC1);
   }

@@ -1,4 +1,4 @@
-// PNG bytes to grey. Source: own design.
+// PNG bytes to grey.
 #ifndef HOMING_IMAGE_PNG_DECODER_H_
 #define HOMING_IMAGE_PNG_DECODER_H_
 

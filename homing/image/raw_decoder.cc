@@ -3,6 +3,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "absl/strings/str_cat.h"
+#include "homing/base/field_error.h"
 #include "homing/base/status_macros.h"
 #include "homing/image/dimensions.h"
 
@@ -14,11 +15,11 @@ absl::StatusOr<cv::Mat> DecodeRaw(const Frame& frame, const DecodeLimits& limits
   const std::size_t expected = static_cast<std::size_t>(frame.width) *
                                static_cast<std::size_t>(frame.height) * (gray ? 1U : 3U);
   if (frame.data.size() != expected) {
-    return absl::InvalidArgumentError(absl::StrCat("frame.data has ", frame.data.size(), " bytes, ",
-                                                   frame.width, " x ", frame.height,
-                                                   gray ? " x 1" : " x 3", " needs ", expected));
+    return MustBe("frame.data", frame.data.size(),
+                  absl::StrCat(expected, " bytes: ", frame.width, " x ", frame.height,
+                               gray ? " x 1" : " x 3"));
   }
-  // cv::Mat takes no pointer to const; the view is only read.
+  // cv::Mat has no constructor for const data; the view is only read.
   void* bytes = const_cast<char*>(frame.data.data());
   const cv::Mat view(frame.height, frame.width, gray ? CV_8UC1 : CV_8UC3, bytes);
   if (gray) {

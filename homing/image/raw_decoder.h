@@ -1,4 +1,4 @@
-// Uncompressed pixels (GRAY8, RGB8, BGR8) to grey. Source: own design.
+// Uncompressed pixels (GRAY8, RGB8, BGR8) to grey.
 #ifndef HOMING_IMAGE_RAW_DECODER_H_
 #define HOMING_IMAGE_RAW_DECODER_H_
 

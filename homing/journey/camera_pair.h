@@ -1,4 +1,4 @@
-// What is done alike for both cameras of the robot. Source: own design.
+// What is done alike for both cameras of the robot.
 #ifndef HOMING_JOURNEY_CAMERA_PAIR_H_
 #define HOMING_JOURNEY_CAMERA_PAIR_H_
 

@@ -1,4 +1,4 @@
-// How flow vectors become landmarks. Source: paper III, Fig. 4; bounds: own design.
+// How flow vectors become landmarks. Source: paper III, Fig. 4.
 #ifndef HOMING_LANDMARK_LANDMARK_OPTIONS_H_
 #define HOMING_LANDMARK_LANDMARK_OPTIONS_H_
 

@@ -1,6 +1,5 @@
 // Counts landmarks along a journey: the landmark seen at one step and the one seen at the next are
-// the same while its mean moves as the flow says. Source: paper III (counting of landmarks); the
-// gate: own design.
+// the same while its mean moves as the flow says. Source: paper III (counting of landmarks).
 #ifndef HOMING_LANDMARK_LANDMARK_TRACKER_H_
 #define HOMING_LANDMARK_LANDMARK_TRACKER_H_
 

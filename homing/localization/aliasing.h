@@ -1,5 +1,5 @@
 // How well a map tells its own places apart: how many steps a robot must see, and which places look
-// alike. Source: own design.
+// alike.
 #ifndef HOMING_LOCALIZATION_ALIASING_H_
 #define HOMING_LOCALIZATION_ALIASING_H_
 

@@ -1,5 +1,5 @@
 // How well the steps of the journeys fit what is seen at one instant: P_T of up to four landmarks,
-// assigned one to one within a side. Source: paper III, V; how they combine: own design.
+// assigned one to one within a side. Source: paper III, V for P_T.
 #ifndef HOMING_LOCALIZATION_STEP_LIKELIHOOD_H_
 #define HOMING_LOCALIZATION_STEP_LIKELIHOOD_H_
 

@@ -1,4 +1,4 @@
-// The interval of steps that holds the most of a belief. Source: own design.
+// The interval of steps that holds the most of a belief.
 #ifndef HOMING_LOCALIZATION_STEP_WINDOW_H_
 #define HOMING_LOCALIZATION_STEP_WINDOW_H_
 

@@ -1,5 +1,4 @@
-// A growing array whose elements never move: growing it takes as long at any size.
-// Source: own design.
+// A growing array whose elements never move: each growth costs the same.
 #ifndef HOMING_MATCHING_CHUNKED_ARRAY_H_
 #define HOMING_MATCHING_CHUNKED_ARRAY_H_
 

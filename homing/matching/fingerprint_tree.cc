@@ -8,10 +8,10 @@
 namespace homing {
 namespace {
 
-// Rounding of float, in what is compared with a double.
+// Rounding error of float when it is compared with a double.
 constexpr double kRounding = 1e-6;
 
-// Asks memory for all of these at once, instead of one after the other as they are needed.
+// Prefetches all of these at once, instead of one at each use.
 template <typename... Columns>
 void Prefetch(const Columns&... columns) {
   constexpr std::size_t kCacheLine = 64 / sizeof(float);
@@ -24,7 +24,7 @@ void Prefetch(const Columns&... columns) {
 
 float Ratio(float a, float b) { return std::min(a, b) / std::max(a, b); }
 
-// At least P_T of each of `size` entries in columns.
+// An upper bound of P_T for each of `size` entries in columns.
 HOMING_VECTOR_CLONES
 void BoundAll(const float* x, const float* y, const std::int32_t* count, int size,
               const TreeQuery& query, const float* table, float* bounds) {
@@ -40,7 +40,7 @@ void BoundAll(const float* x, const float* y, const std::int32_t* count, int siz
 
 }  // namespace
 
-// One search.
+// The state of one search.
 struct FingerprintTree::Walk {
   const TreeQuery query;
   const std::array<float, 2> at;
@@ -68,7 +68,7 @@ struct FingerprintTree::Walk {
     regions.pop_back();
     return region;
   }
-  // The best first, so that most of the others need not be computed.
+  // The best first, so that most others need not be computed.
   void ConsiderBestFirst(const Bucket& bucket, const std::array<float, kCapacity>& bounds) {
     std::array<std::pair<float, int>, kCapacity> candidates;
     auto end = candidates.begin();
@@ -100,7 +100,7 @@ TreeEntry FingerprintTree::EntryAt(const Bucket& bucket, int index) {
   return {bucket.x[i], bucket.y[i], bucket.count[i], bucket.landmark[i], bucket.step[i]};
 }
 
-// Down to the bucket nearest to the query; the other sides wait.
+// Descends to the bucket nearest to the query; the other sides are queued.
 std::uint32_t FingerprintTree::Descend(const Region& from, Walk* walk) const {
   Region here = from;
   const float count = static_cast<float>(walk->query.count);
@@ -111,7 +111,7 @@ std::uint32_t FingerprintTree::Descend(const Region& from, Walk* walk) const {
     if (node.dimension < 2) {
       const float at = walk->at[node.dimension];
       left = at < node.split;
-      // A region that the query is outside of may lie beyond the split already.
+      // If the query is outside the region, the region may already lie beyond the split.
       other.away[node.dimension] = std::max(other.away[node.dimension], std::abs(node.split - at));
     } else {
       left = count < node.split;

@@ -1,6 +1,6 @@
-// Fingerprints of one deviation model and side in space: a tree over mean x, mean y and number of
-// vectors, searched from the greatest P_T that a region can hold downwards. Source: own design; the
-// tree after Bentley, "Multidimensional binary search trees", 1975, with buckets.
+// A tree of fingerprints of one deviation model and side, over mean x, mean y and number of
+// vectors. A search visits regions in the order of the greatest P_T that they can hold. Source:
+// Bentley, "Multidimensional binary search trees", 1975, with buckets.
 #ifndef HOMING_MATCHING_FINGERPRINT_TREE_H_
 #define HOMING_MATCHING_FINGERPRINT_TREE_H_
 
@@ -25,13 +25,13 @@ struct TreeEntry {
   std::uint32_t step = 0;
 };
 
-// Who is told of what a search finds.
+// Receives the entries that a search finds.
 class TreeVisitor {
  public:
   virtual ~TreeVisitor() = default;
-  // Its P_T may reach `least()`.
+  // The P_T of `entry` may reach `least()`.
   virtual void Consider(const TreeEntry& entry) = 0;
-  // No entry of a smaller P_T is wanted any more; never falls.
+  // Entries with a smaller P_T are not needed any more; it never decreases.
   double least() const { return least_; }
 
  protected:
@@ -45,25 +45,25 @@ struct TreeQuery {
   std::int32_t count = 0;
 };
 
-// What a search did.
+// The work of a search.
 struct SearchCost {
-  // Fingerprints in the buckets looked at.
+  // Fingerprints in the visited buckets.
   std::int64_t visited = 0;
 };
 
-// Grows an entry at a time, each in its place at once: there is nothing to rebuild. Not
-// thread-safe; any number may search while no one changes it.
+// Each insertion puts an entry in its final place: there is no rebuilding. Not thread-safe; any
+// number of threads may search while none changes it.
 class FingerprintTree {
  public:
   // REQUIRES: finite mean, count > 0.
   void Insert(const TreeEntry& entry);
-  // Takes all of them at once, into fuller buckets. REQUIRES: the tree is empty; as Insert. Leaves
-  // `entries` in another order.
+  // Inserts all entries at once, into fuller buckets. REQUIRES: the tree is empty; as Insert.
+  // Reorders `entries`.
   void Build(std::span<TreeEntry> entries);
-  // Every entry whose P_T reaches what the visitor wants, and some others.
+  // Visits every entry whose P_T reaches visitor->least(), and some others.
   void Search(const TreeQuery& query, const SurvivalBound& bound, TreeVisitor* visitor,
               SearchCost* cost) const;
-  // Takes out what `unwanted` says among `buckets` buckets from `first` on.
+  // Removes the entries for which `unwanted` is true from `buckets` buckets, from `first` on.
   void RemoveIf(std::uint32_t first, std::uint32_t buckets,
                 const std::function<bool(const TreeEntry&)>& unwanted);
 
@@ -72,7 +72,7 @@ class FingerprintTree {
 
  private:
   static constexpr int kCapacity = 64;
-  // In a bucket after Build: most of the room, so that a few more do not split it at once.
+  // Entries of a bucket after Build: not full, so that a few insertions do not split it at once.
   static constexpr std::size_t kBuilt = 60;
   static constexpr int kDimensions = 3;
   static constexpr std::uint32_t kNone = 0xffffffff;
@@ -84,7 +84,7 @@ class FingerprintTree {
     std::array<float, kDimensions> low;
     std::array<float, kDimensions> high;
   };
-  // In columns, for the loop that bounds them all. Entries past `size` have count 0.
+  // In columns, for the vectorised bound. Entries past `size` have count 0.
   struct alignas(32) Bucket {
     std::array<float, kCapacity> x{};
     std::array<float, kCapacity> y{};
@@ -93,7 +93,7 @@ class FingerprintTree {
     std::array<std::uint32_t, kCapacity> step{};
     Box box{};
     std::int32_t size = 0;
-    // More entries of one and the same mean and count.
+    // The next bucket of entries with the same mean and count.
     std::uint32_t next = kNone;
   };
   // Entries whose value is below `split` are on the left.
@@ -103,7 +103,7 @@ class FingerprintTree {
     std::uint32_t left = kNone;
     std::uint32_t right = kNone;
   };
-  // A region still to be searched: how far from the query it is, and the most it can hold.
+  // A region to be searched: its distance to the query, and the greatest P_T it can hold.
   struct Region {
     float bound = 0;
     std::uint32_t reference = kNone;
@@ -122,7 +122,7 @@ class FingerprintTree {
   static std::uint32_t WidestDimension(const Box& box);
   std::uint32_t NewBucket() { return buckets_.Add(Bucket()); }
   void InsertAt(std::uint32_t* reference, const TreeEntry& entry);
-  // The bucket at `reference` becomes a node of two.
+  // Splits the bucket at `reference` into a node with two buckets.
   void Split(std::uint32_t* reference, std::uint32_t dimension);
   void SplitOff(std::uint32_t* reference, const TreeEntry& entry);
   void PutInChain(std::uint32_t bucket, const TreeEntry& entry);

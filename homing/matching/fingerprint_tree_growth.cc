@@ -1,4 +1,4 @@
-// How the tree grows; fingerprint_tree.cc searches it.
+// The tree's growth; fingerprint_tree.cc searches it.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -8,24 +8,24 @@
 namespace homing {
 namespace {
 
-// An octave of the number of vectors is worth as much as this many pixels when a bucket is split.
+// When a bucket is split, a factor of two in the number of vectors counts as this many pixels.
 constexpr float kPixelsPerOctave = 24;
 
-// Where entries are cut in two: those whose key is below `split` come first, and are so many.
+// A cut of entries: the first `left` ones have a key below `split`.
 struct Cut {
   float split = 0;
   std::size_t left = 0;
 };
 
-// Near `middle`; the lowest, of key `low`, are never alone on the right. One function a key, so
-// that each is read in place.
+// Cuts near `middle`; entries with the lowest key `low` are never alone on the right. One function
+// per key, so that each key is read in place.
 template <typename Key>
 Cut CutAt(std::span<TreeEntry> entries, std::size_t middle, float low, Key key) {
   const auto at = entries.begin() + static_cast<std::ptrdiff_t>(middle);
   std::nth_element(entries.begin(), at, entries.end(),
                    [key](const TreeEntry& a, const TreeEntry& b) { return key(a) < key(b); });
   float split = key(*at);
-  // What comes after is not below.
+  // Entries from here on are not below.
   auto end = at;
   if (split == low) {
     split = std::numeric_limits<float>::infinity();
@@ -136,7 +136,7 @@ void FingerprintTree::Split(std::uint32_t* reference, std::uint32_t dimension) {
   float split = keys[static_cast<std::size_t>(whole.size / 2)];
   const float low = *std::min_element(keys.data(), end);
   if (split == low) {
-    // The next greater one, so that the lowest are not alone on the right.
+    // The next greater key, so that entries with the lowest key are not alone on the right.
     split = whole.box.high[dimension];
     for (int i = 0; i < whole.size; ++i) {
       const float key = keys[static_cast<std::size_t>(i)];
@@ -153,7 +153,7 @@ void FingerprintTree::Split(std::uint32_t* reference, std::uint32_t dimension) {
   *reference = nodes_.Add(node);
 }
 
-// From a chain of entries at one place, which `entry` is not at.
+// Splits `entry` off a chain of entries that all lie at another place.
 void FingerprintTree::SplitOff(std::uint32_t* reference, const TreeEntry& entry) {
   const auto there = buckets_[*reference & ~kBucket].box.low;
   const auto keys = KeysOf(entry);
@@ -176,7 +176,7 @@ void FingerprintTree::PutInChain(std::uint32_t bucket, const TreeEntry& entry) {
     bucket = buckets_[bucket].next;
   }
   if (buckets_[bucket].size == kCapacity) {
-    // Behind the head: the way to free room stays short.
+    // Insert behind the head: free space stays near.
     bucket = NewBucket();
     buckets_[bucket].next = buckets_[head].next;
     buckets_[head].next = bucket;
@@ -199,7 +199,7 @@ std::uint32_t FingerprintTree::BuildTree(std::span<TreeEntry> entries) {
   if (dimension == kDimensions) {
     return BuildChain(entries);
   }
-  // A whole number of buckets on the left.
+  // The left side gets a whole number of buckets.
   const std::size_t buckets = (entries.size() + kBuilt - 1) / kBuilt;
   const auto [split, left_size] =
       CutBy(dimension, entries, buckets / 2 * kBuilt, box.low[dimension]);
@@ -211,7 +211,7 @@ std::uint32_t FingerprintTree::BuildTree(std::span<TreeEntry> entries) {
   return node;
 }
 
-// One bucket, or more of them if all are at one place.
+// One bucket, or a chain if all entries lie at one place.
 std::uint32_t FingerprintTree::BuildChain(std::span<const TreeEntry> entries) {
   const std::uint32_t head = NewBucket();
   for (const TreeEntry& entry : entries) {
@@ -236,7 +236,7 @@ void FingerprintTree::RemoveIf(std::uint32_t first, std::uint32_t buckets,
         Put(after, entry);
       }
     }
-    // A chain is of one place, however few are left there.
+    // The box of a chain stays: all its entries lie at one place.
     after.box = before.box;
     buckets_[b] = after;
   }

@@ -14,7 +14,7 @@ MeanAndCount Of(float x, float y, std::int32_t count) {
 
 }  // namespace
 
-// Keeps the best so far, in order.
+// Keeps the best matches so far, in order.
 class LandmarkIndex::Finder : public TreeVisitor {
  public:
   Finder(const LandmarkIndex& index, const MatchOptions& options, const Covers& covers,
@@ -34,7 +34,7 @@ class LandmarkIndex::Finder : public TreeVisitor {
     const Found found{entry.landmark, entry.step, side_,
                       Compare(homing::Of(seen_->x, seen_->y, seen_->count),
                               homing::Of(entry.x, entry.y, entry.count), group_->model)};
-    if (found.similarity.p_t >= least_ && IsCovered(entry.landmark) && LetGoOfWorse(found)) {
+    if (found.similarity.p_t >= least_ && IsCovered(entry.landmark) && DropWorse(found)) {
       Keep(found);
     }
   }
@@ -49,7 +49,7 @@ class LandmarkIndex::Finder : public TreeVisitor {
   }
 
  private:
-  // A match whose landmark has the index's number: what that stands for is looked up at the end.
+  // A match with the landmark's number in the index; the end of the search translates it.
   struct Found {
     std::uint32_t landmark = 0;
     std::int64_t step = 0;
@@ -58,7 +58,7 @@ class LandmarkIndex::Finder : public TreeVisitor {
   };
 
   bool IsCovered(std::uint32_t landmark) const {
-    if (!index_.sweep_due_ && !covers_) {
+    if (!index_.IsSweeping() && !covers_) {
       return true;
     }
     const int journey = index_.landmarks_[landmark].journey;
@@ -77,8 +77,8 @@ class LandmarkIndex::Finder : public TreeVisitor {
     return std::tie(a.step, a.side, of_a.landmark) < std::tie(b.step, b.side, of_b.landmark);
   }
 
-  // False: the landmark is there already, with a step no worse.
-  bool LetGoOfWorse(const Found& match) {
+  // False: the landmark was found already, with a step that is not worse.
+  bool DropWorse(const Found& match) {
     if (!distinct_) {
       return true;
     }
@@ -125,15 +125,32 @@ int LandmarkIndex::AddJourney(std::string name, const DeviationModel& model) {
   if (!group) {
     group = std::make_unique<Group>(model);
   }
-  journeys_.push_back({std::move(name), group.get(), {}, 0, false});
-  return journey_count() - 1;
+  Journey added{std::move(name), group.get(), {}, 0, false};
+  if (free_journeys_.empty()) {
+    journeys_.push_back(std::move(added));
+    return journey_count() - 1;
+  }
+  const int journey = free_journeys_.back();
+  free_journeys_.pop_back();
+  journeys_[static_cast<std::size_t>(journey)] = std::move(added);
+  return journey;
+}
+
+std::uint32_t LandmarkIndex::NewLandmark(const LandmarkOf& landmark) {
+  if (free_landmarks_.empty()) {
+    return landmarks_.Add(landmark);
+  }
+  const std::uint32_t index = free_landmarks_.back();
+  free_landmarks_.pop_back();
+  landmarks_[index] = landmark;
+  return index;
 }
 
 void LandmarkIndex::Insert(int journey, std::int64_t step, Side side, const Fingerprint& f) {
   Journey& into = journeys_[static_cast<std::size_t>(journey)];
   while (into.landmarks.size() <= static_cast<std::size_t>(f.landmark)) {
     const auto next = static_cast<std::int32_t>(into.landmarks.size());
-    into.landmarks.push_back(landmarks_.Add({journey, next}));
+    into.landmarks.push_back(NewLandmark({journey, next}));
   }
   const auto index = static_cast<std::size_t>(side);
   const TreeEntry entry{f.x, f.y, f.count, into.landmarks[static_cast<std::size_t>(f.landmark)],
@@ -172,25 +189,27 @@ void LandmarkIndex::EndLoading() {
 }
 
 void LandmarkIndex::Remove(int journey) {
-  Journey& gone = journeys_[static_cast<std::size_t>(journey)];
-  gone.removed = true;
-  gone.landmarks = {};
-  fingerprint_count_ -= gone.fingerprint_count;
-  // From the start: what was passed already may hold some of it.
-  sweep_tree_ = 0;
-  sweep_bucket_ = 0;
-  sweep_due_ = true;
+  Journey& removed = journeys_[static_cast<std::size_t>(journey)];
+  removed.removed = true;
+  fingerprint_count_ -= removed.fingerprint_count;
+  removed_.push_back(journey);
 }
 
 bool LandmarkIndex::Sweep(std::uint32_t buckets) {
-  if (!sweep_due_) {
+  if (!IsSweeping()) {
     return false;
+  }
+  if (sweeping_.empty()) {
+    // From the first bucket. Entries of these journeys only move to later buckets from now on.
+    sweeping_.swap(removed_);
+    sweep_tree_ = 0;
+    sweep_bucket_ = 0;
   }
   auto group = groups_.begin();
   std::advance(group, std::min(sweep_tree_ / 2, groups_.size()));
   if (group == groups_.end()) {
-    sweep_due_ = false;
-    return false;
+    EndSweep();
+    return IsSweeping();
   }
   FingerprintTree& tree = group->second->trees[sweep_tree_ % 2];
   tree.RemoveIf(sweep_bucket_, buckets, [this](const TreeEntry& entry) {
@@ -202,6 +221,16 @@ bool LandmarkIndex::Sweep(std::uint32_t buckets) {
     sweep_bucket_ = 0;
   }
   return true;
+}
+
+void LandmarkIndex::EndSweep() {
+  for (const int journey : sweeping_) {
+    Journey& swept = journeys_[static_cast<std::size_t>(journey)];
+    free_landmarks_.insert(free_landmarks_.end(), swept.landmarks.begin(), swept.landmarks.end());
+    swept.landmarks = {};
+    free_journeys_.push_back(journey);
+  }
+  sweeping_.clear();
 }
 
 void LandmarkIndex::Search(const SeenSides& seen, Finder* finder, SearchCost* cost) const {

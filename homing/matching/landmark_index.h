@@ -1,5 +1,4 @@
-// The landmarks of all journeys, found by P_T without looking at all of them (paper III, eqs 13 to
-// 15). Source: own design.
+// An index that finds landmarks by P_T without comparing with all (paper III, eqs 13 to 15).
 #ifndef HOMING_MATCHING_LANDMARK_INDEX_H_
 #define HOMING_MATCHING_LANDMARK_INDEX_H_
 
@@ -20,41 +19,42 @@
 
 namespace homing {
 
-// Answers as a scan of all fingerprints would, to the bit: a search leaves out only what a bound of
-// P_T rules out (1 - F falls with delta, the ratio of numbers with their difference). Each journey
-// is scored with its own deviation model: those of one model share a tree a side. Appending costs
-// the same at any size, and is found by the next search. 20 bytes a fingerprint in buckets filled
-// to 70 % on average, and 12 a landmark. Not thread-safe; any number may search while no one
-// changes it.
+// Gives the same answers as a scan of all fingerprints, to the bit: a search skips only what a
+// bound of P_T excludes (1 - F falls with delta, the ratio of the counts with their difference).
+// Each journey uses its own deviation model; journeys of one model share a tree a side. An append
+// costs the same at any size, and the next search finds it. Memory: 20 bytes a fingerprint in
+// buckets that are 70 % full on average, and 12 a landmark. Not thread-safe; any number of threads
+// may search while none changes it.
 class LandmarkIndex {
  public:
-  // Whether a search covers a journey, by its number.
+  // True if the search covers the journey with this number.
   using Covers = std::function<bool(int journey)>;
 
-  // The number of a new journey. REQUIRES: no journey of that name is in the index.
+  // The number of a new journey; numbers of removed and swept journeys are reused. REQUIRES: no
+  // journey of that name is in the index.
   int AddJourney(std::string name, const DeviationModel& model);
   // REQUIRES: the journey is in the index; the rules of JourneyMap::Append hold for the step.
   void Append(int journey, const JourneyStep& step);
   // All steps of a map from `first` on.
   void Append(int journey, const JourneyMap& map, std::int64_t first = 0);
-  // What is appended between these two is put in place at the second, all at once: faster, and in
-  // fewer bytes. REQUIRES: nothing was appended before; no search between them.
+  // Appends between these two calls are inserted by EndLoading, all at once: this is faster and
+  // takes fewer bytes. REQUIRES: the index is empty; no search in between.
   void BeginLoading() { loading_ = true; }
   void EndLoading();
-  // No search finds it any more; what it took is given back by Sweep.
+  // Searches no longer find the journey. Sweep frees its memory and its number.
   void Remove(int journey);
-  // Goes over `buckets` buckets and takes out what was removed: call it again while it says true.
+  // Frees what was removed from the next `buckets` buckets. False: nothing is left to free.
   bool Sweep(std::uint32_t buckets);
 
-  // As Matcher::Find over all journeys that are covered. Match::journey is the number here.
+  // As Matcher::Find over all covered journeys. Match::journey is the number here.
   std::vector<Match> FindLandmarks(const SeenSides& seen, const MatchOptions& options,
                                    const Covers& covers, SearchCost* cost = nullptr) const;
-  // The same, with every fingerprint for itself instead of the best one of each landmark.
+  // The same for single fingerprints, instead of the best one of each landmark.
   std::vector<Match> FindFingerprints(const SeenSides& seen, const MatchOptions& options,
                                       const Covers& covers, SearchCost* cost = nullptr) const;
 
   const std::string& name(int journey) const { return Of(journey).name; }
-  // Numbers given out so far; removed journeys keep theirs.
+  // Numbers in use, and those of removed journeys.
   int journey_count() const { return static_cast<int>(journeys_.size()); }
   bool removed(int journey) const { return Of(journey).removed; }
   // Of journeys that are not removed.
@@ -69,13 +69,13 @@ class LandmarkIndex {
     SurvivalBound bound;
     // Indexed by Side of the route.
     std::array<FingerprintTree, 2> trees;
-    // What is being loaded, by side.
+    // Entries being loaded, by side.
     std::array<std::vector<TreeEntry>, 2> loading;
   };
   struct Journey {
     std::string name;
     Group* group = nullptr;
-    // By the landmark's number along the journey: its number here.
+    // Index: the landmark's number in the journey. Value: its number here.
     std::vector<std::uint32_t> landmarks;
     std::int64_t fingerprint_count = 0;
     bool removed = false;
@@ -88,6 +88,9 @@ class LandmarkIndex {
 
   const Journey& Of(int journey) const { return journeys_[static_cast<std::size_t>(journey)]; }
   void Insert(int journey, std::int64_t step, Side side, const Fingerprint& fingerprint);
+  std::uint32_t NewLandmark(const LandmarkOf& landmark);
+  void EndSweep();
+  bool IsSweeping() const { return !removed_.empty() || !sweeping_.empty(); }
   void Search(const SeenSides& seen, Finder* finder, SearchCost* cost) const;
 
   // Its elements never move.
@@ -97,10 +100,15 @@ class LandmarkIndex {
   ChunkedArray<LandmarkOf, 1024> landmarks_;
   std::int64_t fingerprint_count_ = 0;
   bool loading_ = false;
-  // Where Sweep goes on: a tree, counted over groups and sides, and a bucket.
+  // Journeys removed since the current sweep began, and before it.
+  std::vector<int> removed_;
+  std::vector<int> sweeping_;
+  // Where Sweep continues: a tree, counted over groups and sides, and a bucket.
   std::size_t sweep_tree_ = 0;
   std::uint32_t sweep_bucket_ = 0;
-  bool sweep_due_ = false;
+  // Free numbers: no tree holds an entry of them.
+  std::vector<int> free_journeys_;
+  std::vector<std::uint32_t> free_landmarks_;
 };
 
 }  // namespace homing

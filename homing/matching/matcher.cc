@@ -18,9 +18,9 @@
 namespace homing {
 namespace {
 
-// Covers the rounding of a bound's product in float, twice over.
+// Twice the rounding error of a bound's product in float.
 constexpr float kProductRounding = 1e-6F;
-// P_T of which a journey has some landmarks, mostly.
+// A P_T that some landmarks of a journey mostly reach.
 constexpr double kMuchAlike = 0.5;
 
 MeanAndCount Of(const SeenLandmark& seen) {
@@ -37,8 +37,8 @@ float SquaredDistance(const Fingerprint& stored, float x, float y) {
   return dx * dx + dy * dy;
 }
 
-// 1 for each that is nearer than `reach` to either of two places, else 0. Two at once: what is
-// stored is gone through less often.
+// 1 for each entry nearer than `reach` to one of two places, else 0. Two places at once halve the
+// reading of stored data.
 HOMING_VECTOR_CLONES
 void FlagNear(std::span<const Fingerprint> stored, float x, float y, float other_x, float other_y,
               float reach, std::uint8_t* __restrict flags) {
@@ -87,11 +87,11 @@ void Matcher::Clear() {
   landmark_count_ = 0;
 }
 
-// Bounds of each pair's P_T: the ratio of numbers (eq 15) times those of 1 - F (eq 14).
+// Upper bounds of each pair's P_T: the ratio of counts (eq 15) times the bound of 1 - F (eq 14).
 void Matcher::Scan(int number, const JourneyMap& map, std::int64_t first, std::int64_t last,
                    const SeenSides& seen, double threshold) {
   const SurvivalBound& bound = BoundOf(map.settings().deviation_model);
-  // Of most pairs the distance alone says that they are none.
+  // The distance alone excludes most pairs.
   const float reach = bound.ReachOf(threshold / (1 + 2 * double{kProductRounding}));
   all_seen_.clear();
   for (std::size_t side = 0; side < seen.size(); ++side) {
@@ -126,7 +126,7 @@ void Matcher::Scan(int number, const JourneyMap& map, std::int64_t first, std::i
   }
 }
 
-// Most are not: eight flags are looked at together.
+// Most flags are 0: eight of them are tested together.
 std::span<const Fingerprint* const> Matcher::FindNear(std::span<const Fingerprint> tile,
                                                       float reach) {
   std::array<std::uint8_t, kTile> flags{};
@@ -199,7 +199,7 @@ void Matcher::ScanAll(std::span<const JourneyRef> journeys, const SeenSides& see
 
 std::vector<Match> Matcher::Find(std::span<const JourneyRef> journeys, const SeenSides& seen,
                                  const MatchOptions& options) {
-  // What is much like something is looked for first: if there is enough of it, nothing else counts.
+  // Scan with a high threshold first; scan fully only if that gives too few matches.
   const double first = std::max(options.threshold, kMuchAlike);
   ScanAll(journeys, seen, first);
   float of_best = LeastOfBest(options.max_matches);

@@ -1,5 +1,5 @@
-// Which stored landmarks resemble what is seen: the best P_T over one or more journeys
-// (paper III, eqs 13 to 15).
+// Finds the stored landmarks that are most similar to those seen: the best P_T over one or more
+// journeys (paper III, eqs 13 to 15).
 #ifndef HOMING_MATCHING_MATCHER_H_
 #define HOMING_MATCHING_MATCHER_H_
 
@@ -20,7 +20,7 @@
 
 namespace homing {
 
-// Whether the cameras changed sides of the route. Direction is always estimated.
+// kReturn: the cameras look at exchanged sides of the route. The direction is always estimated.
 enum class Travel { kReturn = 1, kSame = 2 };
 
 // The side of the route that a camera of the robot looks at.
@@ -47,12 +47,12 @@ struct MatchOptions {
 
 absl::Status Validate(const MatchOptions& options);
 
-// Not thread-safe: keeps what it works with from query to query.
+// Not thread-safe: it reuses its memory from query to query.
 class Matcher {
  public:
-  // Distinct landmarks, each with its best step over everything seen on its side; best P_T first,
-  // ties by journey name, step, side, landmark. Each journey is scored with its own deviation
-  // model. A P_T of 0 is no match. REQUIRES: Validate(options).ok().
+  // Distinct landmarks, each with its best step for all landmarks seen on its side; best P_T first,
+  // ties by journey name, step, side, landmark. Each journey uses its own deviation model. A P_T of
+  // 0 is no match. REQUIRES: Validate(options).ok().
   std::vector<Match> Find(std::span<const JourneyRef> journeys, const SeenSides& seen,
                           const MatchOptions& options);
 
@@ -62,7 +62,7 @@ class Matcher {
                                       std::int64_t last, const SeenSides& seen, double threshold);
 
  private:
-  // Stored fingerprints that are gone through at a time: what is noted of them stays at hand.
+  // Stored fingerprints tested at a time: their flags fit into the cache.
   static constexpr std::size_t kTile = 256;
 
   // A pair that may reach the threshold.
@@ -77,7 +77,7 @@ class Matcher {
     float most = 0;
   };
 
-  // What is seen on either side of the route, in one row.
+  // The landmarks seen on both sides of the route, in one row.
   struct SeenPlace {
     const SeenLandmark* landmark = nullptr;
     float x = 0;
@@ -103,7 +103,7 @@ class Matcher {
   // Of a tile.
   std::array<const Fingerprint*, kTile> near_;
   std::vector<Candidate> candidates_;
-  // What candidates say of their landmark.
+  // The bounds of candidates, by landmark.
   struct KnownLandmark {
     // Its P_T at least.
     float least = 0;

@@ -1,5 +1,5 @@
 // Bounds of 1 - F(delta) that cost a table look-up instead of a logarithm and an erfc.
-// Source: own design, after eqs 9, 14 (1 - F falls with delta).
+// Source: after eqs 9, 14 (1 - F falls with delta).
 #ifndef HOMING_MATCHING_SURVIVAL_BOUND_H_
 #define HOMING_MATCHING_SURVIVAL_BOUND_H_
 

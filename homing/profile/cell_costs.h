@@ -1,4 +1,4 @@
-// What a cell adds to the distance of two flow profiles. Source: own design; fitted to matched and
+// What a cell adds to the distance of two flow profiles. The values were fitted to matched and
 // unmatched pairs (docs/algorithm.md).
 #ifndef HOMING_PROFILE_CELL_COSTS_H_
 #define HOMING_PROFILE_CELL_COSTS_H_

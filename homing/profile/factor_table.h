@@ -1,5 +1,5 @@
 // max(floor, P_T) by table, for the inner loop of the filter; P_T itself (eqs 13 to 15) is
-// in homing/similarity. Source: own design.
+// in homing/similarity.
 #ifndef HOMING_PROFILE_FACTOR_TABLE_H_
 #define HOMING_PROFILE_FACTOR_TABLE_H_
 

@@ -1,5 +1,4 @@
 // How far beside the outbound path the robot drives, if it is at a given place of a journey.
-// Source: own design.
 #ifndef HOMING_PROFILE_PATH_OFFSETS_H_
 #define HOMING_PROFILE_PATH_OFFSETS_H_
 

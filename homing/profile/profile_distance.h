@@ -1,4 +1,4 @@
-// How unlike two flow profiles are. Source: own design.
+// How unlike two flow profiles are.
 #ifndef HOMING_PROFILE_PROFILE_DISTANCE_H_
 #define HOMING_PROFILE_PROFILE_DISTANCE_H_
 

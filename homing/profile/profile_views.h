@@ -1,6 +1,5 @@
 // What the cameras see now, as the outbound robot would have seen it from other distances: a robot
 // that drives further left or right sees one side of the route larger and the other smaller.
-// Source: own design.
 #ifndef HOMING_PROFILE_PROFILE_VIEWS_H_
 #define HOMING_PROFILE_PROFILE_VIEWS_H_
 

@@ -1,74 +1,69 @@
 #include "proto/wire/enum_conversion.h"
 
+#include <google/protobuf/generated_enum_reflection.h>
+
+#include <array>
+#include <utility>
+
 #include "absl/status/status.h"
 #include "absl/strings/str_cat.h"
+#include "absl/strings/str_join.h"
+#include "homing/base/field_error.h"
 
 namespace homing::wire {
 namespace {
 
-absl::Status UnknownValue(const std::string& field, int value, const char* allowed) {
-  return absl::InvalidArgumentError(absl::StrCat(field, " is ", value, ": must be ", allowed));
+// One table for each enumeration, for both directions.
+constexpr std::array kSides = {std::pair(Side::kLeft, v1::SIDE_LEFT),
+                               std::pair(Side::kRight, v1::SIDE_RIGHT)};
+constexpr std::array kMotions = {std::pair(Motion::kMoving, v1::MOTION_MOVING),
+                                 std::pair(Motion::kStanding, v1::MOTION_STANDING),
+                                 std::pair(Motion::kTurning, v1::MOTION_TURNING)};
+constexpr std::array kTravels = {std::pair(Travel::kReturn, v1::TRAVEL_RETURN),
+                                 std::pair(Travel::kSame, v1::TRAVEL_SAME)};
+constexpr std::array kOutcomes = {std::pair(Outcome::kMatch, v1::OUTCOME_MATCH),
+                                  std::pair(Outcome::kAmbiguous, v1::OUTCOME_AMBIGUOUS),
+                                  std::pair(Outcome::kUnknownPlace, v1::OUTCOME_UNKNOWN_PLACE)};
+constexpr std::array kDirections = {std::pair(Direction::kHomeward, v1::DIRECTION_HOMEWARD),
+                                    std::pair(Direction::kOutward, v1::DIRECTION_OUTWARD)};
+constexpr std::array kEncodings = {std::pair(FrameEncoding::kGray8, v1::FRAME_ENCODING_GRAY8),
+                                   std::pair(FrameEncoding::kRgb8, v1::FRAME_ENCODING_RGB8),
+                                   std::pair(FrameEncoding::kBgr8, v1::FRAME_ENCODING_BGR8),
+                                   std::pair(FrameEncoding::kJpeg, v1::FRAME_ENCODING_JPEG),
+                                   std::pair(FrameEncoding::kPng, v1::FRAME_ENCODING_PNG)};
+
+// The unspecified value, 0, if the table does not hold `value`.
+template <typename Value, typename Message, std::size_t size>
+Message MessageOf(const std::array<std::pair<Value, Message>, size>& table, Value value) {
+  for (const auto& [known, message] : table) {
+    if (known == value) return message;
+  }
+  return Message{};
+}
+
+// INVALID_ARGUMENT naming `field` and the valid values.
+template <typename Value, typename Message, std::size_t size>
+absl::StatusOr<Value> ValueOf(const std::array<std::pair<Value, Message>, size>& table,
+                              Message message, const std::string& field) {
+  for (const auto& [value, known] : table) {
+    if (known == message) return value;
+  }
+  const auto* descriptor = google::protobuf::GetEnumDescriptor<Message>();
+  return MustBe(
+      field, static_cast<int>(message),
+      absl::StrCat("one of ", absl::StrJoin(table, ", ", [&](std::string* text, const auto& entry) {
+                     absl::StrAppend(text, descriptor->FindValueByNumber(entry.second)->name());
+                   })));
 }
 
 }  // namespace
 
-v1::Side ToProto(Side side) { return side == Side::kLeft ? v1::SIDE_LEFT : v1::SIDE_RIGHT; }
-
-v1::Motion ToProto(Motion motion) {
-  switch (motion) {
-    case Motion::kMoving:
-      return v1::MOTION_MOVING;
-    case Motion::kStanding:
-      return v1::MOTION_STANDING;
-    case Motion::kTurning:
-      return v1::MOTION_TURNING;
-  }
-  return v1::MOTION_UNSPECIFIED;
-}
-
-v1::Travel ToProto(Travel travel) {
-  return travel == Travel::kReturn ? v1::TRAVEL_RETURN : v1::TRAVEL_SAME;
-}
-
-v1::Outcome ToProto(Outcome outcome) {
-  switch (outcome) {
-    case Outcome::kMatch:
-      return v1::OUTCOME_MATCH;
-    case Outcome::kAmbiguous:
-      return v1::OUTCOME_AMBIGUOUS;
-    case Outcome::kUnknownPlace:
-      return v1::OUTCOME_UNKNOWN_PLACE;
-  }
-  return v1::OUTCOME_UNSPECIFIED;
-}
-
-v1::Direction ToProto(Direction direction) {
-  switch (direction) {
-    case Direction::kUnknown:
-      return v1::DIRECTION_UNSPECIFIED;
-    case Direction::kHomeward:
-      return v1::DIRECTION_HOMEWARD;
-    case Direction::kOutward:
-      return v1::DIRECTION_OUTWARD;
-  }
-  return v1::DIRECTION_UNSPECIFIED;
-}
-
-v1::FrameEncoding ToProto(FrameEncoding encoding) {
-  switch (encoding) {
-    case FrameEncoding::kGray8:
-      return v1::FRAME_ENCODING_GRAY8;
-    case FrameEncoding::kRgb8:
-      return v1::FRAME_ENCODING_RGB8;
-    case FrameEncoding::kBgr8:
-      return v1::FRAME_ENCODING_BGR8;
-    case FrameEncoding::kJpeg:
-      return v1::FRAME_ENCODING_JPEG;
-    case FrameEncoding::kPng:
-      return v1::FRAME_ENCODING_PNG;
-  }
-  return v1::FRAME_ENCODING_UNSPECIFIED;
-}
+v1::Side ToProto(Side side) { return MessageOf(kSides, side); }
+v1::Motion ToProto(Motion motion) { return MessageOf(kMotions, motion); }
+v1::Travel ToProto(Travel travel) { return MessageOf(kTravels, travel); }
+v1::Outcome ToProto(Outcome outcome) { return MessageOf(kOutcomes, outcome); }
+v1::Direction ToProto(Direction direction) { return MessageOf(kDirections, direction); }
+v1::FrameEncoding ToProto(FrameEncoding encoding) { return MessageOf(kEncodings, encoding); }
 
 v1::Fingerprint ToProto(Side side, const Fingerprint& fingerprint) {
   v1::Fingerprint message;
@@ -81,83 +76,24 @@ v1::Fingerprint ToProto(Side side, const Fingerprint& fingerprint) {
 }
 
 absl::StatusOr<Side> FromProto(v1::Side side, const std::string& field) {
-  switch (side) {
-    case v1::SIDE_LEFT:
-      return Side::kLeft;
-    case v1::SIDE_RIGHT:
-      return Side::kRight;
-    default:
-      return UnknownValue(field, side, "SIDE_LEFT or SIDE_RIGHT");
-  }
+  return ValueOf(kSides, side, field);
 }
-
 absl::StatusOr<Motion> FromProto(v1::Motion motion, const std::string& field) {
-  switch (motion) {
-    case v1::MOTION_MOVING:
-      return Motion::kMoving;
-    case v1::MOTION_STANDING:
-      return Motion::kStanding;
-    case v1::MOTION_TURNING:
-      return Motion::kTurning;
-    default:
-      return UnknownValue(field, motion, "MOTION_MOVING, MOTION_STANDING or MOTION_TURNING");
-  }
+  return ValueOf(kMotions, motion, field);
 }
-
 absl::StatusOr<Travel> FromProto(v1::Travel travel, const std::string& field) {
-  switch (travel) {
-    case v1::TRAVEL_UNSPECIFIED:
-    case v1::TRAVEL_RETURN:
-      return Travel::kReturn;
-    case v1::TRAVEL_SAME:
-      return Travel::kSame;
-    default:
-      return UnknownValue(field, travel, "TRAVEL_RETURN or TRAVEL_SAME");
-  }
+  return travel == v1::TRAVEL_UNSPECIFIED ? absl::StatusOr<Travel>(Travel::kReturn)
+                                          : ValueOf(kTravels, travel, field);
 }
-
 absl::StatusOr<Outcome> FromProto(v1::Outcome outcome, const std::string& field) {
-  switch (outcome) {
-    case v1::OUTCOME_MATCH:
-      return Outcome::kMatch;
-    case v1::OUTCOME_AMBIGUOUS:
-      return Outcome::kAmbiguous;
-    case v1::OUTCOME_UNKNOWN_PLACE:
-      return Outcome::kUnknownPlace;
-    default:
-      return UnknownValue(field, outcome,
-                          "OUTCOME_MATCH, OUTCOME_AMBIGUOUS or OUTCOME_UNKNOWN_PLACE");
-  }
+  return ValueOf(kOutcomes, outcome, field);
 }
-
 absl::StatusOr<Direction> FromProto(v1::Direction direction, const std::string& field) {
-  switch (direction) {
-    case v1::DIRECTION_UNSPECIFIED:
-      return Direction::kUnknown;
-    case v1::DIRECTION_HOMEWARD:
-      return Direction::kHomeward;
-    case v1::DIRECTION_OUTWARD:
-      return Direction::kOutward;
-    default:
-      return UnknownValue(field, direction, "DIRECTION_HOMEWARD or DIRECTION_OUTWARD");
-  }
+  return direction == v1::DIRECTION_UNSPECIFIED ? absl::StatusOr<Direction>(Direction::kUnknown)
+                                                : ValueOf(kDirections, direction, field);
 }
-
 absl::StatusOr<FrameEncoding> FromProto(v1::FrameEncoding encoding, const std::string& field) {
-  switch (encoding) {
-    case v1::FRAME_ENCODING_GRAY8:
-      return FrameEncoding::kGray8;
-    case v1::FRAME_ENCODING_RGB8:
-      return FrameEncoding::kRgb8;
-    case v1::FRAME_ENCODING_BGR8:
-      return FrameEncoding::kBgr8;
-    case v1::FRAME_ENCODING_JPEG:
-      return FrameEncoding::kJpeg;
-    case v1::FRAME_ENCODING_PNG:
-      return FrameEncoding::kPng;
-    default:
-      return UnknownValue(field, encoding, "GRAY8, RGB8, BGR8, JPEG or PNG");
-  }
+  return ValueOf(kEncodings, encoding, field);
 }
 
 }  // namespace homing::wire

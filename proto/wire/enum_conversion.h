@@ -1,4 +1,4 @@
-// Enumerations and fingerprints between messages and homing types. Source: own design.
+// Converts enumerations and fingerprints between messages and homing types.
 #ifndef PROTO_WIRE_ENUM_CONVERSION_H_
 #define PROTO_WIRE_ENUM_CONVERSION_H_
 
@@ -24,8 +24,8 @@ v1::Direction ToProto(Direction direction);
 v1::FrameEncoding ToProto(FrameEncoding encoding);
 v1::Fingerprint ToProto(Side side, const Fingerprint& fingerprint);
 
-// The reverse. INVALID_ARGUMENT naming `field` for a value that is unspecified or not known, except
-// that an unspecified travel is kReturn and an unspecified direction kUnknown.
+// INVALID_ARGUMENT naming `field` for an unspecified or unknown value; but an unspecified travel is
+// kReturn and an unspecified direction kUnknown.
 absl::StatusOr<Side> FromProto(v1::Side side, const std::string& field);
 absl::StatusOr<Motion> FromProto(v1::Motion motion, const std::string& field);
 absl::StatusOr<Travel> FromProto(v1::Travel travel, const std::string& field);

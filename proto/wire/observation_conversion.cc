@@ -5,7 +5,9 @@
 
 #include "absl/status/status.h"
 #include "absl/strings/str_cat.h"
+#include "homing/base/field_error.h"
 #include "homing/base/limit_error.h"
+#include "homing/base/range_check.h"
 #include "homing/base/status_macros.h"
 #include "proto/wire/enum_conversion.h"
 
@@ -15,9 +17,9 @@ namespace {
 using Column = google::protobuf::RepeatedField<float>;
 
 constexpr std::int64_t kNanosecondsPerSecond = 1'000'000'000;
-// Last whole second whose nanoseconds fit.
+// The last second whose nanoseconds fit into 64 bits.
 constexpr std::int64_t kMaxSeconds = 9'223'372'035;
-// Far beyond any image, near enough for all arithmetic, pixels.
+// Larger than any image, small enough for all arithmetic, pixels.
 constexpr float kMaxCoordinate = 65536;
 
 bool IsRaw(FrameEncoding encoding) {
@@ -25,7 +27,7 @@ bool IsRaw(FrameEncoding encoding) {
          encoding == FrameEncoding::kBgr8;
 }
 
-// A field's name: of what holds it, and its own.
+// A field's name in two parts: its message's, and its own.
 struct FieldName {
   const std::string& holder;
   const char* own;
@@ -33,27 +35,24 @@ struct FieldName {
 };
 
 absl::Status CheckSide(int value, int min, int max, const FieldName& field) {
+  // The name is made for an error only: this runs for every observation.
   if (value >= min && value <= max) return absl::OkStatus();
-  return absl::InvalidArgumentError(
-      absl::StrCat(field.ToString(), " is ", value, ": must be ", min, " to ", max, " px"));
+  return CheckRange(field.ToString(), value, min, max, "px");
 }
 
 absl::Status CheckColumn(const Column& column, int size, const FieldName& field) {
   if (column.size() != size) {
-    return absl::InvalidArgumentError(absl::StrCat(field.ToString(), " has ", column.size(),
-                                                   " entries: must have as many as start_x, ",
-                                                   size));
+    return MustBe(field.ToString(), column.size(), absl::StrCat(size, " entries, as start_x"));
   }
-  // Almost always all are: looked at without a branch for each.
+  // Almost always all are valid: the test has no branch for each value.
   std::int32_t beyond = 0;
   for (const float value : column) {
     beyond |= std::abs(value) <= kMaxCoordinate ? 0 : 1;
   }
   for (int i = 0; beyond != 0 && i < size; ++i) {
     if (!(std::abs(column[i]) <= kMaxCoordinate)) {
-      return absl::InvalidArgumentError(absl::StrCat(field.ToString(), "[", i, "] is ", column[i],
-                                                     ": must be finite and at most ",
-                                                     kMaxCoordinate, " px from the origin"));
+      return MustBe(absl::StrCat(field.ToString(), "[", i, "]"), column[i],
+                    absl::StrCat("in [-", kMaxCoordinate, ", ", kMaxCoordinate, "] px"));
     }
   }
   return absl::OkStatus();
@@ -100,8 +99,7 @@ absl::StatusOr<Frame> FromProto(const v1::Frame& message, const std::string& fie
   HOMING_RETURN_IF_ERROR(CheckSide(message.width(), min, limits.max_side_px, {field, ".width"}));
   HOMING_RETURN_IF_ERROR(CheckSide(message.height(), min, limits.max_side_px, {field, ".height"}));
   if (message.data().empty()) {
-    return absl::InvalidArgumentError(
-        absl::StrCat(field, ".data is empty: must hold the image's bytes"));
+    return FieldError(absl::StrCat(field, ".data"), "must hold the image's bytes");
   }
   frame.width = message.width();
   frame.height = message.height();
@@ -115,8 +113,8 @@ absl::StatusOr<FlowField> FromProto(const v1::FlowVectors& message, const std::s
   HOMING_RETURN_IF_ERROR(CheckSide(message.height(), 1, limits.max_side_px, {field, ".height"}));
   const int size = message.start_x_size();
   if (size > limits.max_vectors) {
-    return LimitError("VECTORS", absl::StrCat(field, ".start_x has ", size,
-                                              " entries: must have at most ", limits.max_vectors));
+    return LimitError("VECTORS", absl::StrCat(field, ".start_x"), size,
+                      absl::StrCat("at most ", limits.max_vectors, " entries"));
   }
   HOMING_RETURN_IF_ERROR(CheckColumn(message.start_x(), size, {field, ".start_x"}));
   HOMING_RETURN_IF_ERROR(CheckColumn(message.start_y(), size, {field, ".start_y"}));
@@ -136,8 +134,7 @@ absl::StatusOr<FlowField> FromProto(const v1::FlowVectors& message, const std::s
 absl::StatusOr<Observation> FromProto(const v1::Observation& message, const WireLimits& limits) {
   Observation observation;
   if (message.sequence() < 0) {
-    return absl::InvalidArgumentError(
-        absl::StrCat("observation.sequence is ", message.sequence(), ": must be at least 0"));
+    return MustBe("observation.sequence", message.sequence(), "at least 0");
   }
   observation.sequence = message.sequence();
   HOMING_ASSIGN_OR_RETURN(observation.capture_time_ns,
@@ -155,8 +152,7 @@ absl::StatusOr<Observation> FromProto(const v1::Observation& message, const Wire
   HOMING_ASSIGN_OR_RETURN(observation.views[1],
                           ViewFromProto(message.right(), "observation.right", limits));
   if (IsEmpty(observation.views[0]) && IsEmpty(observation.views[1])) {
-    return absl::InvalidArgumentError(
-        "observation.left and observation.right are unset: at least one camera is required");
+    return FieldError("observation.left", "must be set unless observation.right is");
   }
   return observation;
 }
@@ -164,12 +160,12 @@ absl::StatusOr<Observation> FromProto(const v1::Observation& message, const Wire
 absl::StatusOr<std::int64_t> FromProto(const google::protobuf::Timestamp& message,
                                        const std::string& field) {
   if (message.seconds() < 0 || message.seconds() > kMaxSeconds) {
-    return absl::InvalidArgumentError(
-        absl::StrCat(field, ".seconds is ", message.seconds(), ": must be 0 to ", kMaxSeconds));
+    return CheckRange<std::int64_t>(absl::StrCat(field, ".seconds"), message.seconds(), 0,
+                                    kMaxSeconds, "s");
   }
   if (message.nanos() < 0 || message.nanos() >= kNanosecondsPerSecond) {
-    return absl::InvalidArgumentError(
-        absl::StrCat(field, ".nanos is ", message.nanos(), ": must be 0 to 999999999"));
+    return CheckRange<std::int64_t>(absl::StrCat(field, ".nanos"), message.nanos(), 0,
+                                    kNanosecondsPerSecond - 1, "ns");
   }
   return message.seconds() * kNanosecondsPerSecond + message.nanos();
 }

@@ -1,4 +1,4 @@
-// Observations, frames and flow fields between messages and homing types. Source: own design.
+// Converts observations, frames and flow fields between messages and homing types.
 #ifndef PROTO_WIRE_OBSERVATION_CONVERSION_H_
 #define PROTO_WIRE_OBSERVATION_CONVERSION_H_
 
@@ -15,7 +15,7 @@
 
 namespace homing::wire {
 
-// What one message may ask for.
+// Limits on one message.
 struct WireLimits {
   // Vectors of one camera at one instant.
   int max_vectors = 100'000;
@@ -26,15 +26,15 @@ struct WireLimits {
 // All FromProto: INVALID_ARGUMENT naming the field (under the path `field`), its value and the
 // limit.
 
-// Views the bytes of `message`, which must outlive the result. Raw encodings need a size; the
-// length of the bytes and the image itself are checked by DecodeGray.
+// Points into `message`, which must outlive the result. Raw encodings need a size. DecodeGray
+// checks the length of the bytes and the image itself.
 absl::StatusOr<Frame> FromProto(const v1::Frame& message, const std::string& field,
                                 const WireLimits& limits = {});
-// Unequal columns, too many vectors, sizes outside 1 to max_side_px, ends that are not finite or
-// further than 65536 px out.
+// Refuses columns of unequal length, too many vectors, sizes outside 1 to max_side_px, and ends
+// that are not finite or more than 65536 px from the origin.
 absl::StatusOr<FlowField> FromProto(const v1::FlowVectors& message, const std::string& field,
                                     const WireLimits& limits = {});
-// Frames view the bytes of `message`, which must outlive the result. Needs at least one camera.
+// Frames point into `message`, which must outlive the result. At least one camera is required.
 absl::StatusOr<Observation> FromProto(const v1::Observation& message,
                                       const WireLimits& limits = {});
 // Nanoseconds since the epoch. 1970 to 2261.

@@ -4,6 +4,8 @@
 
 #include "absl/status/status.h"
 #include "absl/strings/str_cat.h"
+#include "homing/base/field_error.h"
+#include "homing/base/range_check.h"
 #include "homing/base/status_macros.h"
 
 namespace homing::wire {
@@ -11,16 +13,8 @@ namespace {
 
 constexpr int kMaxSidePx = 8192;
 
-// `status` with the path of the message before what it says.
-absl::Status Under(const std::string& field, const absl::Status& status) {
-  if (status.ok()) return status;
-  return absl::Status(status.code(), absl::StrCat(field, ": ", std::string(status.message())));
-}
-
 absl::Status CheckSide(int value, const std::string& field) {
-  if (value >= 0 && value <= kMaxSidePx) return absl::OkStatus();
-  return absl::InvalidArgumentError(
-      absl::StrCat(field, " is ", value, ": must be 0 to ", kMaxSidePx, " px"));
+  return CheckRange(field, value, 0, kMaxSidePx, "px");
 }
 
 }  // namespace
@@ -37,13 +31,12 @@ absl::StatusOr<Camera> FromProto(const v1::Camera& message, const std::string& f
   const int given = message.distortion_size();
   camera.fisheye = message.fisheye();
   if (given != 0 && given != 4 && (camera.fisheye || (given != 5 && given != 8))) {
-    return absl::InvalidArgumentError(absl::StrCat(field, ".distortion has ", given,
-                                                   " entries: must have 0",
-                                                   camera.fisheye ? " or 4" : ", 4, 5 or 8"));
+    return MustBe(absl::StrCat(field, ".distortion"), given,
+                  camera.fisheye ? "0 or 4 entries" : "0, 4, 5 or 8 entries");
   }
   std::copy(message.distortion().begin(), message.distortion().end(), camera.distortion.begin());
   camera.yaw_rad = message.yaw_rad();
-  HOMING_RETURN_IF_ERROR(Under(field, Validate(camera)));
+  HOMING_RETURN_IF_ERROR(Within(field, Validate(camera)));
   return camera;
 }
 
@@ -58,7 +51,7 @@ absl::StatusOr<FlowOptions> FromProto(const v1::FlowSettings& message, const std
   options.window_px = message.window_px();
   options.pyramid_levels = message.pyramid_levels();
   options.max_forward_backward_px = message.max_forward_backward_px();
-  HOMING_RETURN_IF_ERROR(Under(field, Validate(options)));
+  HOMING_RETURN_IF_ERROR(Within(field, Validate(options)));
   return options;
 }
 
@@ -72,7 +65,7 @@ absl::StatusOr<LandmarkOptions> FromProto(const v1::LandmarkSettings& message,
   options.min_peak_share = message.min_peak_share();
   options.max_track_distance_px = message.max_track_distance_px();
   options.max_track_gap_steps = message.max_track_gap_steps();
-  HOMING_RETURN_IF_ERROR(Under(field, Validate(options)));
+  HOMING_RETURN_IF_ERROR(Within(field, Validate(options)));
   return options;
 }
 

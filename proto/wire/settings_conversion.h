@@ -1,4 +1,4 @@
-// Cameras and journey settings between messages and homing types. Source: own design.
+// Converts cameras and journey settings between messages and homing types.
 #ifndef PROTO_WIRE_SETTINGS_CONVERSION_H_
 #define PROTO_WIRE_SETTINGS_CONVERSION_H_
 
@@ -18,8 +18,8 @@ absl::StatusOr<Camera> FromProto(const v1::Camera& message, const std::string& f
 absl::StatusOr<FlowOptions> FromProto(const v1::FlowSettings& message, const std::string& field);
 absl::StatusOr<LandmarkOptions> FromProto(const v1::LandmarkSettings& message,
                                           const std::string& field);
-// What is unset is taken from `defaults`: flow, landmark and cameras as a whole, and the name of
-// the deviation model. The model's values stay those of `defaults`: the caller looks them up.
+// Unset parts have the values of `defaults`: flow, landmark and cameras as a whole, and the name of
+// the deviation model. The model's values are those of `defaults`: the caller looks them up.
 absl::StatusOr<JourneySettings> FromProto(const v1::JourneySettings& message,
                                           const std::string& field,
                                           const JourneySettings& defaults);

@@ -7,6 +7,7 @@
 #include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
 #include "absl/strings/strip.h"
+#include "homing/base/mutex.h"
 #include "homing/base/status_macros.h"
 #include "server/base/error_reason.h"
 
@@ -19,8 +20,12 @@ absl::Status Unauthenticated(const char* reason, const std::string& message) {
   return WithReason(absl::UnauthenticatedError(message), {reason, {}});
 }
 
-// A file that is being written may be half of what it will be: it is read once nobody has touched
-// it for a second.
+bool IsEmpty(const std::string& path) {
+  std::error_code error;
+  return std::filesystem::file_size(path, error) == 0 && !error;
+}
+
+// A file may be read while it is being written. It is read once it was not changed for a second.
 bool IsSettled(const std::string& path) {
   std::error_code error;
   const auto written = std::filesystem::last_write_time(path, error);
@@ -51,8 +56,15 @@ absl::Status AccessControl::ReadFiles(bool (*is_due)(const std::string& path)) {
   if (!files_.tokens.empty() && is_due(files_.tokens)) {
     absl::StatusOr<TokenBook> book = TokenBook::Read(files_.tokens);
     status.Update(book.status());
+    // A file in the middle of being written, or cut: nobody could connect any more. A table without
+    // entries is meant so.
+    if (book.ok() && IsEmpty(files_.tokens) && tokens_ && !tokens_->empty()) {
+      book = absl::InvalidArgumentError(
+          absl::StrCat("tokens is \"", files_.tokens, "\"; it is empty and must hold [tokens]"));
+      status.Update(book.status());
+    }
     if (book.ok()) {
-      const std::lock_guard lock(mutex_);
+      const MutexLock lock(mutex_);
       tokens_ = std::make_shared<TokenBook>(*std::move(book));
     }
   }
@@ -60,7 +72,7 @@ absl::Status AccessControl::ReadFiles(bool (*is_due)(const std::string& path)) {
     absl::StatusOr<RoleBook> book = RoleBook::Read(files_.roles);
     status.Update(book.status());
     if (book.ok()) {
-      const std::lock_guard lock(mutex_);
+      const MutexLock lock(mutex_);
       roles_ = std::make_shared<RoleBook>(*std::move(book));
     }
   }
@@ -82,7 +94,7 @@ absl::StatusOr<std::string> AccessControl::IdentityOfToken(const Credentials& cr
   }
   std::shared_ptr<const TokenBook> tokens;
   {
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     tokens = tokens_;
   }
   auto identity = tokens->Find(header.substr(kBearerSize));
@@ -106,7 +118,7 @@ absl::StatusOr<Caller> AccessControl::Identify(const Credentials& credentials) c
   const bool has_token = !credentials.authorizations.empty();
   if (!has_certificate && !has_token) {
     return Unauthenticated("NO_CREDENTIALS",
-                           "who calls is not known; a client certificate or a token is required");
+                           "no credentials: send a client certificate or a bearer token");
   }
   Caller caller;
   if (has_certificate) {
@@ -119,7 +131,7 @@ absl::StatusOr<Caller> AccessControl::Identify(const Credentials& credentials) c
     }
     caller.identity = std::move(identity);
   }
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   caller.role = roles_->Find(caller.identity);
   return caller;
 }

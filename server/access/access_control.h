@@ -1,13 +1,13 @@
-// From what came with a call to who calls. Source: own design.
+// Identifies the caller from the credentials of a call.
 #ifndef SERVER_ACCESS_ACCESS_CONTROL_H_
 #define SERVER_ACCESS_ACCESS_CONTROL_H_
 
 #include <memory>
-#include <mutex>
 #include <string>
 
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
+#include "homing/base/mutex.h"
 #include "server/access/caller.h"
 #include "server/access/client_certificates.h"
 #include "server/access/role_book.h"
@@ -29,17 +29,17 @@ class AccessControl {
   // Without any file everyone who reaches the server is an admin. INVALID_ARGUMENT.
   static absl::StatusOr<std::unique_ptr<AccessControl>> Open(const AccessFiles& files);
 
-  // True when nobody is asked who they are.
+  // No credentials are required.
   bool is_open() const { return is_open_; }
 
-  // A certificate, a token, or both of the same identity. UNAUTHENTICATED: neither, or one that is
-  // not good (any more).
+  // The credentials are a certificate, a token, or both of the same identity. UNAUTHENTICATED:
+  // neither is given, or one is not valid now.
   absl::StatusOr<Caller> Identify(const Credentials& credentials) const;
   // As ClientCertificates::Check; OK when no client CA is set.
   absl::Status CheckCertificate(const std::string& chain_pem) const;
 
-  // Reads all files again; those that cannot be read, or are just being written, stay as they were.
-  // The first error.
+  // Reads all files again. A file that cannot be read, or is being written, keeps its previous
+  // content. Returns the first error.
   absl::Status Reload();
 
  private:
@@ -51,9 +51,10 @@ class AccessControl {
   const AccessFiles files_;
   const bool is_open_;
   std::unique_ptr<ClientCertificates> certificates_;
-  mutable std::mutex mutex_;
-  std::shared_ptr<const TokenBook> tokens_ = std::make_shared<TokenBook>();
-  std::shared_ptr<const RoleBook> roles_ = std::make_shared<RoleBook>();
+  mutable Mutex mutex_;
+  std::shared_ptr<const TokenBook> tokens_ HOMING_GUARDED_BY(mutex_) =
+      std::make_shared<TokenBook>();
+  std::shared_ptr<const RoleBook> roles_ HOMING_GUARDED_BY(mutex_) = std::make_shared<RoleBook>();
 };
 
 }  // namespace homing::server

@@ -32,7 +32,7 @@ Standing StandingOf(const Caller& caller, const storage::JourneyRecord& record) 
   return listed ? Standing::kReader : Standing::kOther;
 }
 
-// What a request names.
+// The resource that a request names.
 struct Target {
   JourneyName name;
   // Only the robot is named.
@@ -52,7 +52,7 @@ absl::StatusOr<Target> ParseTarget(Rpc rpc, const std::string& resource) {
   return Target{name, false};
 }
 
-// Of a name that stands alone, without looking it up: its owner, or not.
+// The caller's relation to a resource by its name alone, without a lookup: owner or stranger.
 Standing OwnerOrOther(const Caller& caller, const JourneyName& name) {
   return name.robot == caller.robot() ? Standing::kOwner : Standing::kOther;
 }
@@ -65,7 +65,7 @@ absl::Status Authorize(const Caller& caller, Rpc rpc, const std::string& resourc
   if (AllowsAll(caller.role, right)) {
     return absl::OkStatus();
   }
-  // Nothing that this caller could name would do.
+  // The caller is refused for every resource.
   if (!Allows(caller.role, right, Standing::kOwner)) {
     return Denied(caller, rpc, resource);
   }
@@ -82,7 +82,7 @@ absl::Status Authorize(const Caller& caller, Rpc rpc, const std::string& resourc
     if (record.ok() && Allows(caller.role, right, StandingOf(caller, *record))) {
       return absl::OkStatus();
     }
-    // A store that cannot be read is told as such; that there is no such journey is not.
+    // An unreadable store is reported; a missing journey is not, so that names cannot be guessed.
     if (!record.ok() && !absl::IsNotFound(record.status())) {
       return record.status();
     }

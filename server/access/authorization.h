@@ -1,4 +1,4 @@
-// The one place that says whether a caller may do what it asks. Source: own design.
+// Decides whether a caller may do what it asks. No other place does.
 #ifndef SERVER_ACCESS_AUTHORIZATION_H_
 #define SERVER_ACCESS_AUTHORIZATION_H_
 
@@ -11,14 +11,14 @@
 
 namespace homing::server {
 
-// `resource` is what the request's field (TraitsOf(rpc).field) holds: a robot, a journey, or, for
-// methods that read, a pattern, of which the caller then gets what JourneysFor lets through.
-// PERMISSION_DENIED, in the same words whether or not such a journey exists; INVALID_ARGUMENT: no
-// such name can be.
+// `resource` is the value of the request's field (TraitsOf(rpc).field): a robot, a journey, or, for
+// methods that read, a pattern; JourneysFor then selects the journeys of the pattern.
+// PERMISSION_DENIED has the same text whether or not the journey exists. INVALID_ARGUMENT: the name
+// is malformed.
 absl::Status Authorize(const Caller& caller, Rpc rpc, const std::string& resource,
                        JourneyCatalog* catalog);
 
-// Which journeys of a pattern are there for the caller. Empty: all.
+// The journeys of a pattern that the caller may use. Empty: all.
 JourneyFilter JourneysFor(const Caller& caller, Rpc rpc);
 
 }  // namespace homing::server

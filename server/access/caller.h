@@ -1,4 +1,4 @@
-// Who calls, as far as it is proven. Source: own design.
+// The caller, as far as its identity is proven.
 #ifndef SERVER_ACCESS_CALLER_H_
 #define SERVER_ACCESS_CALLER_H_
 
@@ -10,21 +10,21 @@
 
 namespace homing::server {
 
-// What came with a call, not yet believed.
+// The credentials of a call, not yet checked.
 struct Credentials {
-  // "Authorization: Bearer ..." as it came; several: all of them.
+  // The values of the header "authorization", all of them if it is repeated.
   std::vector<std::string> authorizations;
-  // Of the client's certificate, if TLS took one: PEM, the client's own first, and its URI names.
+  // The client's certificate chain in PEM, its own certificate first, and the URI names in it.
   std::string certificate_pem;
   std::vector<std::string> uris;
 };
 
 struct Caller {
-  // "robots/r1"; empty when the server asks nobody who they are.
+  // "robots/r1"; empty when the server requires no credentials.
   std::string identity;
   Role role = Role::kNone;
 
-  // The robot's id; empty for anyone else.
+  // The robot's id; empty if the caller is no robot.
   std::string robot() const { return RobotOf(identity); }
 };
 

@@ -10,6 +10,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
+#include "homing/base/field_error.h"
 #include "homing/base/status_macros.h"
 
 namespace homing::server {
@@ -92,6 +93,15 @@ bool Sign(X509* certificate, X509* issuer, EVP_PKEY* issuer_key) {
          X509_sign(certificate, issuer_key, EVP_sha256()) > 0;
 }
 
+absl::Status SignItself(X509* certificate, EVP_PKEY* key) {
+  const bool made =
+      certificate != nullptr &&
+      AddExtension(certificate, certificate, NID_basic_constraints, "critical,CA:TRUE") &&
+      AddExtension(certificate, certificate, NID_key_usage, "critical,keyCertSign,cRLSign") &&
+      Sign(certificate, certificate, key);
+  return made ? absl::OkStatus() : Failed("a certificate");
+}
+
 bool AddRevoked(X509_CRL* list, const ASN1_INTEGER* serial, const ASN1_TIME* now) {
   X509_REVOKED* entry = X509_REVOKED_new();
   return X509_REVOKED_set_serialNumber(entry, const_cast<ASN1_INTEGER*>(serial)) == 1 &&
@@ -99,7 +109,7 @@ bool AddRevoked(X509_CRL* list, const ASN1_INTEGER* serial, const ASN1_TIME* now
          X509_CRL_add0_revoked(list, entry) == 1;
 }
 
-// The serials of a list that is there already.
+// Copies the serial numbers of an existing list.
 absl::Status AddPrevious(const std::string& pem, X509_CRL* list) {
   const OpensslPtr<X509_CRL> previous(
       PEM_read_bio_X509_CRL(ReadingBio(pem).get(), nullptr, nullptr, nullptr));
@@ -126,13 +136,23 @@ absl::StatusOr<CertificateAuthority> CertificateAuthority::Make(const std::strin
   request.common_name = common_name;
   request.ends_in = lifetime;
   OpensslPtr<X509> certificate = Blank(request, key.get());
-  X509* self = certificate.get();
-  if (!certificate || !AddExtension(self, self, NID_basic_constraints, "critical,CA:TRUE") ||
-      !AddExtension(self, self, NID_key_usage, "critical,keyCertSign,cRLSign") ||
-      !Sign(self, self, key.get())) {
+  HOMING_RETURN_IF_ERROR(SignItself(certificate.get(), key.get()));
+  return CertificateAuthority(std::move(key), std::move(certificate));
+}
+
+absl::Status CertificateAuthority::Renew(std::chrono::seconds lifetime) {
+  CertificateRequest request;
+  request.ends_in = lifetime;
+  // The subject is copied below: Blank needs some name.
+  request.common_name = "renewed";
+  OpensslPtr<X509> renewed = Blank(request, key_.get());
+  if (!renewed ||
+      X509_set_subject_name(renewed.get(), X509_get_subject_name(certificate_.get())) != 1) {
     return Failed("a certificate");
   }
-  return CertificateAuthority(std::move(key), std::move(certificate));
+  HOMING_RETURN_IF_ERROR(SignItself(renewed.get(), key_.get()));
+  certificate_ = std::move(renewed);
+  return absl::OkStatus();
 }
 
 absl::StatusOr<CertificateAuthority> CertificateAuthority::FromPem(const KeyAndCertificate& pem) {
@@ -168,7 +188,7 @@ absl::StatusOr<KeyAndCertificate> CertificateAuthority::Issue(
   const std::string names = absl::StrJoin(request.names, ",");
   if (!names.empty() && !AddExtension(made, issuer, NID_subject_alt_name, names)) {
     ERR_clear_error();
-    return absl::InvalidArgumentError(absl::StrCat("names are \"", names, "\"; not X.509 names"));
+    return TextMustBe("names", names, "X.509 names");
   }
   if (!Sign(made, issuer, key_.get())) {
     return Failed("a certificate");

@@ -1,5 +1,4 @@
-// A certificate authority for trying things out, and for a fleet without one of its own.
-// Source: own design; RFC 5280 by OpenSSL.
+// A certificate authority for tests, and for a fleet that has none. RFC 5280 by OpenSSL.
 #ifndef SERVER_ACCESS_CERTIFICATE_AUTHORITY_H_
 #define SERVER_ACCESS_CERTIFICATE_AUTHORITY_H_
 
@@ -33,17 +32,21 @@ struct CertificateRequest {
 // Keys are P-256. INTERNAL: OpenSSL fails.
 class CertificateAuthority {
  public:
-  // A new one.
+  // With a new key.
   static absl::StatusOr<CertificateAuthority> Make(const std::string& common_name,
                                                    std::chrono::seconds lifetime);
   // INVALID_ARGUMENT: not PEM, or the key of another certificate.
   static absl::StatusOr<CertificateAuthority> FromPem(const KeyAndCertificate& pem);
 
+  // The same key and name with a new certificate that ends `lifetime` from now: certificates that
+  // the old one signed stay valid.
+  absl::Status Renew(std::chrono::seconds lifetime);
+
   absl::StatusOr<KeyAndCertificate> pem() const;
   // INVALID_ARGUMENT: a name OpenSSL does not take.
   absl::StatusOr<KeyAndCertificate> Issue(const CertificateRequest& request) const;
-  // A revocation list (PEM) good for `lifetime`: those of `previous` (PEM; may be empty) and
-  // `revoked` (PEM certificates). INVALID_ARGUMENT: not PEM.
+  // A revocation list (PEM) that is valid for `lifetime`. It holds the entries of `previous` (PEM;
+  // may be empty) and `revoked` (PEM certificates). INVALID_ARGUMENT: not PEM.
   absl::StatusOr<std::string> Revoke(const std::string& previous,
                                      const std::vector<std::string>& revoked,
                                      std::chrono::seconds lifetime) const;

@@ -2,11 +2,11 @@
 
 #include <chrono>
 #include <filesystem>
-#include <fstream>
 #include <optional>
-#include <sstream>
 
 #include "absl/strings/str_cat.h"
+#include "homing/base/field_error.h"
+#include "homing/base/file_text.h"
 #include "homing/base/range_check.h"
 #include "homing/base/status_macros.h"
 #include "server/access/certificate_authority.h"
@@ -18,28 +18,27 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string ReadOrNothing(const fs::path& path) {
-  const std::ifstream file(path, std::ios::binary);
-  std::ostringstream text;
-  text << file.rdbuf();
-  return file ? text.str() : std::string();
-}
+std::string ReadOrNothing(const fs::path& path) { return ReadFile(path.string()).value_or(""); }
 
-// A folder in the making.
+// The folder of certificates while a command changes it.
 class Folder {
  public:
-  Folder(const fs::path& root, int days) : root_(root), lifetime_(std::chrono::hours(24 * days)) {}
+  explicit Folder(const CertificateOrder& order)
+      : root_(order.folder),
+        lifetime_(std::chrono::hours(24 * order.days)),
+        authority_lifetime_(std::chrono::hours(24 * order.ca_days)) {}
 
-  absl::Status OpenAuthority() {
+  absl::Status OpenAuthority(bool renew) {
     const KeyAndCertificate pem = {ReadOrNothing(root_ / "ca.key"),
                                    ReadOrNothing(root_ / "ca.pem")};
     if (!pem.certificate.empty()) {
       HOMING_ASSIGN_OR_RETURN(CertificateAuthority known, CertificateAuthority::FromPem(pem));
       authority_.emplace(std::move(known));
-      return absl::OkStatus();
+      return renew ? RenewAuthority() : absl::OkStatus();
     }
-    HOMING_ASSIGN_OR_RETURN(CertificateAuthority made,
-                            CertificateAuthority::Make("Homing test authority", lifetime_));
+    HOMING_ASSIGN_OR_RETURN(
+        CertificateAuthority made,
+        CertificateAuthority::Make("Homing test authority", authority_lifetime_));
     authority_.emplace(std::move(made));
     HOMING_ASSIGN_OR_RETURN(const KeyAndCertificate fresh, authority_->pem());
     return Write("ca", fresh);
@@ -70,19 +69,24 @@ class Folder {
       HOMING_RETURN_IF_ERROR(CheckIdentity(identity, "revoke"));
       certificates.push_back(ReadOrNothing(root_ / (identity + ".pem")));
       if (certificates.back().empty()) {
-        return absl::InvalidArgumentError(
-            absl::StrCat("revoke is \"", identity, "\"; the folder holds no certificate of it"));
+        return TextMustBe("revoke", identity, "an identity whose certificate is in the folder");
       }
     }
     const fs::path path = root_ / "crl" / "homing.pem";
-    HOMING_ASSIGN_OR_RETURN(const std::string list,
-                            authority_->Revoke(ReadOrNothing(path), certificates, lifetime_));
+    HOMING_ASSIGN_OR_RETURN(
+        const std::string list,
+        authority_->Revoke(ReadOrNothing(path), certificates, authority_lifetime_));
     return WriteFile(path, list);
   }
 
   const std::vector<std::string>& written() const { return written_; }
 
  private:
+  absl::Status RenewAuthority() {
+    HOMING_RETURN_IF_ERROR(authority_->Renew(authority_lifetime_));
+    HOMING_ASSIGN_OR_RETURN(const KeyAndCertificate renewed, authority_->pem());
+    return WriteFile(root_ / "ca.pem", renewed.certificate);
+  }
   absl::Status Make(const std::string& name, CertificateRequest request) {
     request.ends_in = lifetime_;
     HOMING_ASSIGN_OR_RETURN(const KeyAndCertificate made, authority_->Issue(request));
@@ -97,7 +101,7 @@ class Folder {
     fs::create_directories(path.parent_path(), error);
     HOMING_RETURN_IF_ERROR(WritePrivateFile(path.string(), text));
     if (path.extension() == ".pem") {
-      // Certificates and lists are no secret, and the server may be another user's.
+      // Certificates and lists are not secret, and the server may run as another user.
       fs::permissions(path, fs::perms(0644), error);
     }
     written_.push_back(path.string());
@@ -106,6 +110,7 @@ class Folder {
 
   const fs::path root_;
   const std::chrono::seconds lifetime_;
+  const std::chrono::seconds authority_lifetime_;
   std::optional<CertificateAuthority> authority_;
   std::vector<std::string> written_;
 };
@@ -113,10 +118,11 @@ class Folder {
 }  // namespace
 
 absl::StatusOr<std::vector<std::string>> MakeCertificates(const CertificateOrder& order) {
-  HOMING_RETURN_IF_ERROR(CheckRange("days", order.days, 1, 36'500));
-  Folder folder(order.folder, order.days);
-  HOMING_RETURN_IF_ERROR(folder.OpenAuthority());
-  // First, so that a certificate made anew is not the one revoked.
+  HOMING_RETURN_IF_ERROR(CheckRange("days", order.days, 1, 36'500, "days"));
+  HOMING_RETURN_IF_ERROR(CheckRange("ca-days", order.ca_days, 1, 36'500, "days"));
+  Folder folder(order);
+  HOMING_RETURN_IF_ERROR(folder.OpenAuthority(order.renew_ca));
+  // Revoke first: a certificate that this command makes must not be revoked by it.
   HOMING_RETURN_IF_ERROR(folder.Revoke(order.revoked));
   HOMING_RETURN_IF_ERROR(folder.MakeServer(order.hosts));
   for (const std::string& robot : order.robots) {

@@ -1,4 +1,4 @@
-// What `homing-server certs` keeps in its folder. Source: own design.
+// The folder that `homing-server certs` keeps.
 #ifndef SERVER_ACCESS_CERTIFICATE_FOLDER_H_
 #define SERVER_ACCESS_CERTIFICATE_FOLDER_H_
 
@@ -10,21 +10,26 @@
 namespace homing::server {
 
 struct CertificateOrder {
-  // Made if it is not there. An authority that is in it already is used again.
+  // Created if missing. An authority in it is used again.
   std::string folder;
   // Ids; each gets a certificate with URI:homing:robots/ID or URI:homing:operators/ID.
   std::vector<std::string> robots;
   std::vector<std::string> operators;
   // Names or addresses of the server besides localhost, 127.0.0.1 and ::1.
   std::vector<std::string> hosts;
-  // Identities ("robots/r1") whose certificate in the folder is good no more.
+  // Identities ("robots/r1") whose certificates in the folder are to be revoked.
   std::vector<std::string> revoked;
-  // Of all that is made. [1, 36500].
+  // How long the certificates of the server, robots and operators are valid. [1, 36500].
   int days = 365;
+  // How long the authority's own certificate and the revocation list are valid. The list is made
+  // anew by each run, and must last until the next one. [1, 36500].
+  int ca_days = 3650;
+  // Make a new certificate for the authority's key. Certificates that it signed stay valid.
+  bool renew_ca = false;
 };
 
-// ca.pem, ca.key; server.pem, server.key (made anew when hosts are given); robots/ID.pem, .key and
-// operators/ID.pem, .key; crl/homing.pem, made anew each time. Keys have mode 0600. Returns the
+// Writes ca.pem and ca.key; server.pem and server.key (new if hosts are given); robots/ID.pem and
+// .key; operators/ID.pem and .key; crl/homing.pem (new each time). Keys have mode 0600. Returns the
 // paths written. INVALID_ARGUMENT naming the field.
 absl::StatusOr<std::vector<std::string>> MakeCertificates(const CertificateOrder& order);
 

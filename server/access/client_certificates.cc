@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "absl/strings/str_cat.h"
+#include "homing/base/mutex.h"
 #include "homing/base/status_macros.h"
 #include "server/access/flag_file.h"
 #include "server/base/error_reason.h"
@@ -15,7 +16,7 @@
 namespace homing::server {
 namespace {
 
-// Chains remembered between two reloads; more are checked anew each time.
+// Chains whose result is cached between two reloads; others are verified each time.
 constexpr std::size_t kMostKnown = 10'000;
 
 absl::StatusOr<OpensslPtr<STACK_OF(X509_INFO)>> ReadPem(const std::string& flag,
@@ -25,7 +26,7 @@ absl::StatusOr<OpensslPtr<STACK_OF(X509_INFO)>> ReadPem(const std::string& flag,
       PEM_X509_INFO_read_bio(ReadingBio(pem).get(), nullptr, nullptr, nullptr));
   ERR_clear_error();
   if (!items) {
-    return FlagFileError(flag, path, "the file is not PEM");
+    return FlagFileError(flag, path, "is not PEM");
   }
   return items;
 }
@@ -39,7 +40,7 @@ absl::Status AddAuthorities(const std::string& path, X509_STORE* store) {
     }
   }
   return found > 0 ? absl::OkStatus()
-                   : FlagFileError("tls-client-ca", path, "it holds no certificate");
+                   : FlagFileError("tls-client-ca", path, "holds no certificate");
 }
 
 absl::StatusOr<int> AddRevocations(const std::string& path, X509_STORE* store) {
@@ -64,7 +65,7 @@ absl::Status AddRevocationFolder(const std::string& folder, X509_STORE* store) {
   }
   if (error || found == 0) {
     return FlagFileError("tls-crl-dir", folder,
-                         "it is no folder that holds a revocation list (PEM)");
+                         "must be a folder that holds a revocation list (PEM)");
   }
   X509_STORE_set_flags(store, X509_V_FLAG_CRL_CHECK | X509_V_FLAG_CRL_CHECK_ALL);
   return absl::OkStatus();
@@ -92,7 +93,7 @@ absl::Status ClientCertificates::Reload() {
   if (status.ok() && !crl_dir_.empty()) {
     status = AddRevocationFolder(crl_dir_, store.get());
   }
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   known_.clear();
   if (status.ok()) {
     store_ = std::move(store);
@@ -103,14 +104,14 @@ absl::Status ClientCertificates::Reload() {
 absl::Status ClientCertificates::Check(const std::string& chain_pem) const {
   std::shared_ptr<X509_STORE> store;
   {
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     if (const auto found = known_.find(chain_pem); found != known_.end()) {
       return found->second;
     }
     store = store_;
   }
   absl::Status status = Verify(store.get(), chain_pem);
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   if (store == store_ && known_.size() < kMostKnown) {
     known_.emplace(chain_pem, status);
   }

@@ -1,30 +1,31 @@
-// Whether a client's certificate is good now: of our CA, within its dates, not revoked.
-// Source: own design; RFC 5280 by OpenSSL.
+// Checks that a client's certificate is valid now: signed by our CA, within its dates, not revoked.
+// OpenSSL does it by RFC 5280.
 #ifndef SERVER_ACCESS_CLIENT_CERTIFICATES_H_
 #define SERVER_ACCESS_CLIENT_CERTIFICATES_H_
 
 #include <memory>
-#include <mutex>
 #include <string>
 #include <unordered_map>
 
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
+#include "homing/base/mutex.h"
 #include "server/access/openssl_handle.h"
 
 namespace homing::server {
 
-// The TLS handshake asks it, and so does every call, so that a certificate that is revoked or runs
-// out while its connection is open is refused as well. Thread-safe.
+// The TLS handshake and each call check the certificate, so that one that is revoked or expires
+// during a connection is refused too. Thread-safe.
 class ClientCertificates {
  public:
-  // PEM files: the CAs to trust, and a folder of revocation lists (empty: none is asked for). With
-  // a folder, an issuer whose list is missing or past its next update vouches for nobody.
-  // INVALID_ARGUMENT: a file that cannot be read or holds no certificate, a folder without a list.
+  // `ca_file`: the trusted CAs, PEM. `crl_dir`: a folder of revocation lists; empty: none are
+  // checked. With a folder, certificates of an issuer whose list is missing or outdated are
+  // refused. INVALID_ARGUMENT: a file cannot be read or holds no certificate, or the folder holds
+  // no list.
   static absl::StatusOr<std::unique_ptr<ClientCertificates>> Open(const std::string& ca_file,
                                                                   const std::string& crl_dir);
 
-  // Reads the files again. When they cannot be read, the ones before stay. As Open.
+  // Reads the files again. After an error the previous ones stay in use. Errors as Open.
   absl::Status Reload();
 
   // `chain_pem`: the client's certificate first. UNAUTHENTICATED, with OpenSSL's reason.
@@ -37,10 +38,10 @@ class ClientCertificates {
 
   const std::string ca_file_;
   const std::string crl_dir_;
-  mutable std::mutex mutex_;
-  std::shared_ptr<X509_STORE> store_;
-  // What Verify said since the last Reload.
-  mutable std::unordered_map<std::string, absl::Status> known_;
+  mutable Mutex mutex_;
+  std::shared_ptr<X509_STORE> store_ HOMING_GUARDED_BY(mutex_);
+  // Results of Verify since the last Reload.
+  mutable std::unordered_map<std::string, absl::Status> known_ HOMING_GUARDED_BY(mutex_);
 };
 
 }  // namespace homing::server

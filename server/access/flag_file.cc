@@ -1,25 +1,21 @@
 #include "server/access/flag_file.h"
 
-#include <fstream>
-#include <sstream>
+#include <utility>
 
 #include "absl/strings/str_cat.h"
+#include "homing/base/field_error.h"
+#include "homing/base/file_text.h"
 
 namespace homing::server {
 
 absl::Status FlagFileError(const std::string& flag, const std::string& path,
                            const std::string& what) {
-  return absl::InvalidArgumentError(absl::StrCat(flag, " is \"", path, "\"; ", what));
+  return FieldError(flag, absl::StrCat("\"", path, "\" ", what));
 }
 
 absl::StatusOr<std::string> ReadFlagFile(const std::string& flag, const std::string& path) {
-  const std::ifstream file(path, std::ios::binary);
-  std::ostringstream text;
-  text << file.rdbuf();
-  if (!file) {
-    return FlagFileError(flag, path, "the file cannot be read");
-  }
-  return text.str();
+  absl::StatusOr<std::string> text = ReadFile(path);
+  return text.ok() ? std::move(text) : FlagFileError(flag, path, "cannot be read");
 }
 
 }  // namespace homing::server

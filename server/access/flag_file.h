@@ -1,4 +1,4 @@
-// The files that flags name. Source: own design.
+// Reads the files that options name.
 #ifndef SERVER_ACCESS_FLAG_FILE_H_
 #define SERVER_ACCESS_FLAG_FILE_H_
 
@@ -9,7 +9,7 @@
 
 namespace homing::server {
 
-// INVALID_ARGUMENT that names flag, file and what is wrong with it.
+// INVALID_ARGUMENT with the option, the file and the problem.
 absl::Status FlagFileError(const std::string& flag, const std::string& path,
                            const std::string& what);
 

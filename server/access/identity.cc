@@ -3,6 +3,7 @@
 #include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
 #include "absl/strings/strip.h"
+#include "homing/base/field_error.h"
 #include "homing/base/status_macros.h"
 #include "server/base/error_reason.h"
 #include "server/base/resource_name.h"
@@ -29,8 +30,7 @@ absl::Status CheckIdentity(const std::string& identity, const std::string& field
       return CheckId(identity.substr(std::string(kind).size()), field);
     }
   }
-  return absl::InvalidArgumentError(absl::StrCat(field, " is \"", identity.substr(0, 200),
-                                                 "\"; it must be robots/ID or operators/ID"));
+  return TextMustBe(field, identity, "robots/ID or operators/ID");
 }
 
 absl::StatusOr<std::string> IdentityOfUris(const std::vector<std::string>& uris) {

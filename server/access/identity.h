@@ -1,4 +1,4 @@
-// Names of those who call: "robots/{robot}" and "operators/{operator}". Source: own design.
+// Identities of callers: "robots/{robot}" and "operators/{operator}".
 #ifndef SERVER_ACCESS_IDENTITY_H_
 #define SERVER_ACCESS_IDENTITY_H_
 
@@ -14,17 +14,17 @@ namespace homing::server {
 // INVALID_ARGUMENT naming `field` unless `identity` is "robots/{id}" or "operators/{id}".
 absl::Status CheckIdentity(const std::string& identity, const std::string& field);
 
-// The identity in a certificate's names: of those that are "homing:IDENTITY". UNAUTHENTICATED: none
-// is, or more than one.
+// The identity in a certificate's URI names, "homing:IDENTITY". UNAUTHENTICATED: not exactly one
+// name has that form.
 absl::StatusOr<std::string> IdentityOfUris(const std::vector<std::string>& uris);
 
-// "homing:robots/r", as it stands in a certificate.
+// "homing:robots/r", the form in certificates.
 std::string UriOf(const std::string& identity);
 
-// The id of "robots/{id}"; empty for anyone else.
+// The id of "robots/{id}"; empty for other identities.
 std::string RobotOf(const std::string& identity);
 
-// What an identity that no file mentions may do: robots are robots, operators are operators.
+// The role of an identity that the file of roles does not mention: robot or operator.
 Role DefaultRole(const std::string& identity);
 
 }  // namespace homing::server

@@ -1,4 +1,4 @@
-// Whether a key and a certificate belong together. Source: own design.
+// Checks that a key and a certificate belong together.
 #ifndef SERVER_ACCESS_KEY_PAIR_H_
 #define SERVER_ACCESS_KEY_PAIR_H_
 
@@ -8,8 +8,8 @@
 
 namespace homing::server {
 
-// PEM files. INVALID_ARGUMENT naming the flag (tls-cert, tls-key) whose file cannot be read, is no
-// PEM, or is not the other's. Nothing of the key is repeated.
+// PEM files. INVALID_ARGUMENT naming the option (tls-cert, tls-key): its file cannot be read, is
+// not PEM, or does not match the other. The message holds nothing of the key.
 absl::Status CheckKeyPair(const std::string& certificate_file, const std::string& key_file);
 
 }  // namespace homing::server

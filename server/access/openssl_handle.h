@@ -1,4 +1,4 @@
-// OpenSSL's objects as owners. Source: own design.
+// Owning pointers to OpenSSL's objects.
 #ifndef SERVER_ACCESS_OPENSSL_HANDLE_H_
 #define SERVER_ACCESS_OPENSSL_HANDLE_H_
 
@@ -34,7 +34,7 @@ inline OpensslPtr<BIO> ReadingBio(std::string_view text) {
   return OpensslPtr<BIO>(BIO_new_mem_buf(text.data(), static_cast<int>(text.size())));
 }
 
-// All that was written.
+// All bytes written to `bio`.
 inline std::string ContentsOf(BIO* bio) {
   char* data = nullptr;
   const long size = BIO_get_mem_data(bio, &data);

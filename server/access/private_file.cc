@@ -34,7 +34,7 @@ absl::Status WriteTo(const std::string& path, const std::string& text, int flags
 }  // namespace
 
 absl::Status WritePrivateFile(const std::string& path, const std::string& text) {
-  // One that others may read is replaced, not filled.
+  // A file that others may read is replaced by a new one.
   const std::string fresh = path + ".new";
   ::unlink(fresh.c_str());
   absl::Status status = WriteTo(fresh, text, O_EXCL);

@@ -1,4 +1,4 @@
-// Files that only their owner may read: keys and tokens. Source: own design.
+// Files that only their owner may read: keys and tokens.
 #ifndef SERVER_ACCESS_PRIVATE_FILE_H_
 #define SERVER_ACCESS_PRIVATE_FILE_H_
 
@@ -8,8 +8,8 @@
 
 namespace homing::server {
 
-// Writes (replacing what is there) or appends. A file made by it has mode 0600 from the first byte
-// on. INVALID_ARGUMENT naming the path.
+// Writes (replacing the content) or appends. A new file has mode 0600 from the first byte on.
+// INVALID_ARGUMENT naming the path.
 absl::Status WritePrivateFile(const std::string& path, const std::string& text);
 absl::Status AppendPrivateFile(const std::string& path, const std::string& text);
 

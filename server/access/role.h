@@ -1,4 +1,4 @@
-// Who may do what: the whole table. Source: own design.
+// The table of rights: which role may call which method.
 #ifndef SERVER_ACCESS_ROLE_H_
 #define SERVER_ACCESS_ROLE_H_
 
@@ -10,29 +10,29 @@
 namespace homing::server {
 
 enum class Role {
-  // Refused whatever it asks.
+  // Every call is refused.
   kNone,
-  // Recognises places on journeys it may read; takes no map, writes nothing.
+  // Localises on journeys that it may read; exports no map and writes nothing.
   kLocalizeOnly,
-  // Writes its own journeys; reads these and what lists it among its readers.
+  // Writes its own journeys; reads them and those that list it as a reader.
   kRobot,
-  // Reads all, takes backups, deletes, trains models; writes no journey.
+  // Reads all journeys, makes backups, deletes journeys, trains models; records no journey.
   kOperator,
-  // Everything.
+  // Every call is allowed.
   kAdmin,
 };
 
-// How a caller stands to a journey.
+// The caller's relation to a journey.
 enum class Standing {
   kOwner,
-  // Among the journey's readers, by name or by "*".
+  // Listed among the journey's readers, by name or by "*".
   kReader,
   kOther,
 };
 
 // The table.
 bool Allows(Role role, Right right, Standing standing);
-// True if `role` may do it to whatever journey.
+// `role` may call the method for any journey.
 inline bool AllowsAll(Role role, Right right) { return Allows(role, right, Standing::kOther); }
 
 // "none", "localise-only", "robot", "operator", "admin".

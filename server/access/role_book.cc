@@ -2,6 +2,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "homing/base/status_macros.h"
+#include "server/access/flag_file.h"
 #include "server/access/identity.h"
 #include "server/access/text_table.h"
 
@@ -20,13 +21,13 @@ absl::StatusOr<RoleBook> RoleBook::Read(const std::string& path) {
   HOMING_ASSIGN_OR_RETURN(const auto table, ReadTextTable("roles", path, "roles"));
   RoleBook book;
   for (const auto& [identity, name] : table) {
-    HOMING_RETURN_IF_ERROR(IsKind(identity) ? absl::OkStatus()
-                                            : CheckIdentity(identity, "roles: identity"));
+    HOMING_RETURN_IF_ERROR(IsKind(identity) ? absl::OkStatus() : CheckIdentity(identity, "roles"));
     const auto role = RoleOfName(name);
     if (!role) {
-      return absl::InvalidArgumentError(absl::StrCat(
-          "roles is \"", path, "\"; the role of ", identity, " is \"", name.substr(0, 100),
-          "\"; it must be none, localise-only, robot, operator or admin"));
+      return FlagFileError(
+          "roles", path,
+          absl::StrCat("gives ", identity, " the role \"", name.substr(0, 100),
+                       "\", which must be none, localise-only, robot, operator or admin"));
     }
     book.roles_.emplace(identity, *role);
   }

@@ -1,4 +1,4 @@
-// Roles given to identities by a file. Source: own design.
+// Roles that a file gives to identities.
 #ifndef SERVER_ACCESS_ROLE_BOOK_H_
 #define SERVER_ACCESS_ROLE_BOOK_H_
 
@@ -12,10 +12,10 @@ namespace homing::server {
 
 class RoleBook {
  public:
-  // Everyone has the role of their kind (DefaultRole).
+  // Empty: every identity has DefaultRole.
   RoleBook() = default;
-  // File: [roles], "robots/r7" = "localise-only"; "robots/*" and "operators/*" are those not
-  // listed. INVALID_ARGUMENT.
+  // The file holds [roles], "robots/r7" = "localise-only". "robots/*" and "operators/*" stand for
+  // identities that are not listed. INVALID_ARGUMENT.
   static absl::StatusOr<RoleBook> Read(const std::string& path);
 
   Role Find(const std::string& identity) const;

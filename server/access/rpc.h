@@ -1,4 +1,4 @@
-// The methods of the API, for what concerns them all: rights and metrics. Source: own design.
+// The methods of the API, as rights and metrics see them.
 #ifndef SERVER_ACCESS_RPC_H_
 #define SERVER_ACCESS_RPC_H_
 
@@ -13,6 +13,7 @@ enum class Rpc {
   kListJourneys,
   kDeleteJourney,
   kFinishJourney,
+  kSetReaders,
   kRecordJourney,
   kListLandmarks,
   kAnalyzeAliasing,
@@ -26,21 +27,21 @@ enum class Rpc {
   kBackUpStore,
 };
 
-// What a method does, as far as rights go.
+// The kind of access that a method needs.
 enum class Right {
   // Creates, records, finishes, imports a journey.
   kWrite,
   kDelete,
-  // Sees that a journey is there, and its settings and counts.
+  // Lists journeys, with their settings and counts.
   kSee,
-  // Takes the map itself: landmarks, aliasing, export.
+  // Reads the map itself: landmarks, aliasing, export.
   kTakeMap,
-  // Recognises places on it.
+  // Localises on the journey.
   kLocalize,
-  // Makes a deviation model, which all robots share.
+  // Trains a deviation model, which all robots share.
   kTrain,
   kSeeModels,
-  // Takes everything there is.
+  // Reads the whole store.
   kBackUp,
 };
 
@@ -49,16 +50,17 @@ struct RpcTraits {
   // "homing.v1.JourneyService/CreateJourney".
   std::string_view method;
   Right right;
-  // The field of the request that names the resource; empty: none does.
+  // The request's field that names the resource; empty: none.
   std::string_view field;
 };
 
-inline constexpr std::array<RpcTraits, 16> kRpcs = {{
+inline constexpr std::array<RpcTraits, 17> kRpcs = {{
     {Rpc::kCreateJourney, "homing.v1.JourneyService/CreateJourney", Right::kWrite, "parent"},
     {Rpc::kGetJourney, "homing.v1.JourneyService/GetJourney", Right::kSee, "name"},
     {Rpc::kListJourneys, "homing.v1.JourneyService/ListJourneys", Right::kSee, "parent"},
     {Rpc::kDeleteJourney, "homing.v1.JourneyService/DeleteJourney", Right::kDelete, "name"},
     {Rpc::kFinishJourney, "homing.v1.JourneyService/FinishJourney", Right::kWrite, "name"},
+    {Rpc::kSetReaders, "homing.v1.JourneyService/SetReaders", Right::kDelete, "name"},
     {Rpc::kRecordJourney, "homing.v1.JourneyService/RecordJourney", Right::kWrite,
      "config.journey"},
     {Rpc::kListLandmarks, "homing.v1.JourneyService/ListLandmarks", Right::kTakeMap, "parent"},
@@ -76,7 +78,7 @@ inline constexpr std::array<RpcTraits, 16> kRpcs = {{
     {Rpc::kBackUpStore, "homing.v1.StoreService/BackUpStore", Right::kBackUp, ""},
 }};
 
-// In the order of the enumeration.
+// In the order of Rpc.
 inline const RpcTraits& TraitsOf(Rpc rpc) { return kRpcs[static_cast<std::size_t>(rpc)]; }
 
 }  // namespace homing::server

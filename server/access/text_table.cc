@@ -9,14 +9,14 @@
 namespace homing::server {
 namespace {
 
-// The parser's description may quote a line of the file: only the place is told.
+// The parser's description may quote a secret from the file: only the line number is reported.
 absl::StatusOr<toml::table> Parse(const std::string& flag, const std::string& path,
                                   const std::string& text) {
   try {
     return toml::parse(text);
   } catch (const toml::parse_error& error) {
     return FlagFileError(flag, path,
-                         absl::StrCat("line ", error.source().begin.line, " is not TOML"));
+                         absl::StrCat("is not TOML in line ", error.source().begin.line));
   }
 }
 
@@ -33,12 +33,12 @@ absl::StatusOr<std::map<std::string, std::string>> ReadTextTable(const std::stri
   std::map<std::string, std::string> entries;
   for (const auto& [name, node] : *parsed) {
     if (name.str() != table || !node.is_table()) {
-      return FlagFileError(flag, path, absl::StrCat("it must hold one table, [", table, "]"));
+      return FlagFileError(flag, path, absl::StrCat("must hold one table, [", table, "]"));
     }
     for (const auto& [key, value] : *node.as_table()) {
       if (!value.is_string()) {
         return FlagFileError(flag, path,
-                             absl::StrCat("every value of [", table, "] must be a string"));
+                             absl::StrCat("has a value in [", table, "] that is not a string"));
       }
       entries.emplace(std::string(key.str()), value.value_or(std::string()));
     }

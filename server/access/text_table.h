@@ -1,5 +1,4 @@
-// A TOML file with one table of texts: the form of the files of tokens and of roles.
-// Source: own design.
+// Reads a TOML file with one table of texts: the files of tokens and of roles.
 #ifndef SERVER_ACCESS_TEXT_TABLE_H_
 #define SERVER_ACCESS_TEXT_TABLE_H_
 
@@ -10,8 +9,9 @@
 
 namespace homing::server {
 
-// The entries of "[table]", which must be all that the file holds. INVALID_ARGUMENT naming `flag`
-// and the file: it cannot be read, is no TOML, or holds something else. No value is repeated in it.
+// The entries of "[table]", which must be the only table. INVALID_ARGUMENT naming `flag` and the
+// file: it cannot be read, is not TOML, or holds something else. The message holds no value of the
+// file.
 absl::StatusOr<std::map<std::string, std::string>> ReadTextTable(const std::string& flag,
                                                                  const std::string& path,
                                                                  const std::string& table);

@@ -11,6 +11,7 @@
 #include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
 #include "homing/base/status_macros.h"
+#include "server/access/flag_file.h"
 #include "server/access/identity.h"
 #include "server/access/private_file.h"
 #include "server/access/text_table.h"
@@ -63,12 +64,14 @@ absl::StatusOr<TokenBook> TokenBook::Read(const std::string& path) {
   for (const auto& [key, identity] : table) {
     const auto hash = HashOfText(key);
     if (!hash) {
-      // Not repeated: it may be a token put there by mistake.
-      return absl::InvalidArgumentError(absl::StrCat(
-          "tokens is \"", path, "\"; the key of ", identity.substr(0, 100),
-          " must be sha256: and 64 hexadecimal digits, as `homing-server token` makes it"));
+      // The key is not repeated: it may be a token that was put there by mistake.
+      return FlagFileError(
+          "tokens", path,
+          absl::StrCat("gives ", identity.substr(0, 100),
+                       " a key that is not sha256: and 64 hexadecimal digits, as `homing-server "
+                       "token` makes it"));
     }
-    HOMING_RETURN_IF_ERROR(CheckIdentity(identity, "tokens: identity"));
+    HOMING_RETURN_IF_ERROR(CheckIdentity(identity, "tokens"));
     book.entries_.push_back({*hash, identity});
   }
   return book;
@@ -92,7 +95,7 @@ absl::Status AddToken(const std::string& path, const std::string& identity, cons
   if (!std::filesystem::exists(path, error)) {
     line = "[tokens]\n" + line;
   } else {
-    // A file that would not be read any more is not touched.
+    // Do not write to a file that could not be read afterwards.
     HOMING_RETURN_IF_ERROR(TokenBook::Read(path).status());
   }
   return AppendPrivateFile(path, line);

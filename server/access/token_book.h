@@ -1,4 +1,4 @@
-// Bearer tokens: kept as hashes, compared in constant time. Source: own design.
+// Bearer tokens: stored as hashes, compared in constant time.
 #ifndef SERVER_ACCESS_TOKEN_BOOK_H_
 #define SERVER_ACCESS_TOKEN_BOOK_H_
 
@@ -12,26 +12,26 @@
 
 namespace homing::server {
 
-// SHA-256. A token is 256 random bits, so that there is nothing to guess and no need of a slow
-// hash.
+// SHA-256. A token has 256 random bits, so that a fast hash is safe.
 using TokenHash = std::array<unsigned char, 32>;
 
 TokenHash HashToken(const std::string& token);
-// 43 characters of [A-Za-z0-9_-]. INTERNAL: the system gives no random bits.
+// 43 characters of [A-Za-z0-9_-]. INTERNAL: the system provides no random bits.
 absl::StatusOr<std::string> MakeToken();
-// As it stands in the file: "sha256:" and 64 hexadecimal digits.
+// The form in the file: "sha256:" and 64 hexadecimal digits.
 std::string ToText(const TokenHash& hash);
 
-// A token's hash beside whose it is. Several tokens may be one identity's, so that one can be
-// replaced without a gap.
+// Hashes of tokens with their identities. An identity may have several tokens, so that one can be
+// replaced without an interruption.
 class TokenBook {
  public:
-  // Nobody has a token.
+  // Empty: no token is valid.
   TokenBook() = default;
   // File: [tokens], "sha256:HEX" = "robots/r1". INVALID_ARGUMENT.
   static absl::StatusOr<TokenBook> Read(const std::string& path);
 
-  // Whose it is. Every entry is looked at, whatever it holds.
+  bool empty() const { return entries_.empty(); }
+  // The identity of the token. Compares with every entry, so that the time reveals nothing.
   std::optional<std::string> Find(const std::string& token) const;
 
  private:
@@ -42,7 +42,7 @@ class TokenBook {
   std::vector<Entry> entries_;
 };
 
-// Adds a line to the file of tokens, making the file (owner only) if there is none.
+// Appends a line to the file of tokens; creates it (readable by its owner only) if missing.
 // INVALID_ARGUMENT (identity, path).
 absl::Status AddToken(const std::string& path, const std::string& identity, const TokenHash& hash);
 

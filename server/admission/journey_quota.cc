@@ -13,11 +13,11 @@ namespace {
 constexpr std::int64_t kFingerprintBytes = 16;
 constexpr std::int64_t kStepBytes = 216;
 constexpr std::int64_t kSecondNs = 1'000'000'000;
-// Room comes when somebody deletes: no use in asking often.
+// Space appears only when somebody deletes: frequent retries do not help.
 constexpr char kRetryMs[] = "10000";
 constexpr int kPage = 1000;
 
-// All journeys of `robot` (kWildcard: of all), page by page.
+// Visits all journeys of `robot` (kWildcard: of all robots), page by page.
 absl::Status ForEach(JourneyCatalog* catalog, const std::string& robot,
                      const std::function<void(const storage::JourneyRecord&)>& visit) {
   std::string after;
@@ -122,14 +122,16 @@ absl::Status JourneyQuota::CheckGrowth(const std::string& name) {
   return Check(parsed.robot, 0);
 }
 
-absl::StatusOr<std::int64_t> JourneyQuota::DeleteExpired(std::int64_t now_ns) {
-  if (limits_.delete_after_s == 0) {
+absl::StatusOr<std::int64_t> JourneyQuota::DeleteExpired(std::int64_t now_ns,
+                                                         std::int64_t trusted_ns) {
+  if (limits_.delete_after_s == 0 || catalog_->read_only()) {
     return 0;
   }
   const std::int64_t before_ns = now_ns - limits_.delete_after_s * kSecondNs;
   std::vector<std::string> expired;
   HOMING_RETURN_IF_ERROR(ForEach(catalog_, kWildcard, [&](const storage::JourneyRecord& record) {
-    if (IsFinished(record) && record.create_time_ns < before_ns) {
+    if (IsFinished(record) && record.create_time_ns < before_ns &&
+        record.create_time_ns >= trusted_ns) {
       expired.push_back(record.name);
     }
   }));

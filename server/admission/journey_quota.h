@@ -1,4 +1,4 @@
-// Journeys and bytes kept of one robot, and how long. Source: own design.
+// Limits the journeys and bytes stored for one robot, and their age.
 #ifndef SERVER_ADMISSION_JOURNEY_QUOTA_H_
 #define SERVER_ADMISSION_JOURNEY_QUOTA_H_
 
@@ -14,23 +14,24 @@
 
 namespace homing::server {
 
-// As it counts towards max-robot-bytes.
+// The bytes that count towards max-robot-bytes.
 std::int64_t QuotaBytes(const storage::JourneyRecord& record);
 
-// Thread-safe. Two journeys made at the same instant may both find the last place free.
+// Thread-safe. Two journeys created at the same instant may both take the last place.
 class JourneyQuota {
  public:
   // `catalog` must outlive it.
   JourneyQuota(JourneyCatalog* catalog, const Limits& limits)
       : catalog_(catalog), limits_(limits) {}
 
-  // Before a journey of that name is made; OK if it is there already. RESOURCE_EXHAUSTED naming the
-  // limit; with delete_oldest the robot's oldest finished journeys go first.
+  // Call it before a journey of that name is created. OK if it exists. RESOURCE_EXHAUSTED naming
+  // the limit; with delete_oldest the robot's oldest finished journeys are deleted instead.
   absl::Status CheckNew(const std::string& name);
-  // Before it grows. As CheckNew, for bytes alone.
+  // Call it before a journey grows. As CheckNew, for bytes only.
   absl::Status CheckGrowth(const std::string& name);
-  // Deletes finished journeys made before `now_ns` - delete_after_s; the number.
-  absl::StatusOr<std::int64_t> DeleteExpired(std::int64_t now_ns);
+  // Deletes finished journeys created before `now_ns` - delete_after_s, but not before
+  // `trusted_ns`. Returns how many.
+  absl::StatusOr<std::int64_t> DeleteExpired(std::int64_t now_ns, std::int64_t trusted_ns);
 
   // Journeys deleted by either rule since the start.
   std::int64_t deleted() const { return deleted_; }

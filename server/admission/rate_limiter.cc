@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "absl/strings/str_cat.h"
+#include "homing/base/mutex.h"
 #include "server/base/error_reason.h"
 
 namespace homing::server {
@@ -32,7 +33,7 @@ absl::Status RateLimiter::Take(const std::string& key, TimePoint now) {
   if (rate_ <= 0) {
     return absl::OkStatus();
   }
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   ForgetFull(now);
   const auto [found, is_new] = buckets_.try_emplace(key, Bucket{rate_ * kBurstSeconds, now});
   Bucket& bucket = found->second;

@@ -1,23 +1,23 @@
-// A token bucket for each robot. Source: own design.
+// A token bucket for each robot.
 #ifndef SERVER_ADMISSION_RATE_LIMITER_H_
 #define SERVER_ADMISSION_RATE_LIMITER_H_
 
 #include <map>
-#include <mutex>
 #include <string>
 
 #include "absl/status/status.h"
+#include "homing/base/mutex.h"
 #include "server/catalog/writer_lease.h"
 
 namespace homing::server {
 
-// Thread-safe. Buckets that are full again are forgotten.
+// Thread-safe. Full buckets are dropped.
 class RateLimiter {
  public:
-  // `per_second` tokens come a second, up to twice as many; 0: no limit.
+  // Each second adds `per_second` tokens, up to twice as many in total; 0: no limit.
   explicit RateLimiter(int per_second) : rate_(per_second) {}
 
-  // Takes one token. RESOURCE_EXHAUSTED saying when there is one again.
+  // Takes one token. RESOURCE_EXHAUSTED with the time until the next one.
   absl::Status Take(const std::string& key, TimePoint now);
 
  private:
@@ -26,12 +26,12 @@ class RateLimiter {
     TimePoint at{};
   };
   double TokensAt(const Bucket& bucket, TimePoint now) const;
-  void ForgetFull(TimePoint now);
+  void ForgetFull(TimePoint now) HOMING_REQUIRES(mutex_);
 
   const double rate_;
-  std::mutex mutex_;
-  std::map<std::string, Bucket> buckets_;
-  std::size_t next_sweep_ = 1024;
+  Mutex mutex_;
+  std::map<std::string, Bucket> buckets_ HOMING_GUARDED_BY(mutex_);
+  std::size_t next_sweep_ HOMING_GUARDED_BY(mutex_) = 1024;
 };
 
 }  // namespace homing::server

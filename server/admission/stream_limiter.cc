@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "absl/strings/str_cat.h"
+#include "homing/base/mutex.h"
 #include "server/base/error_reason.h"
 
 namespace homing::server {
@@ -29,7 +30,7 @@ void StreamLimiter::Place::Leave() {
 }
 
 absl::StatusOr<StreamLimiter::Place> StreamLimiter::Enter(const std::string& robot) {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   if (max_all_ > 0 && open_ >= max_all_) {
     return WithReason(absl::ResourceExhaustedError(
                           absl::StrCat(open_, " streams are open; max-streams is ", max_all_)),
@@ -50,7 +51,7 @@ absl::StatusOr<StreamLimiter::Place> StreamLimiter::Enter(const std::string& rob
 }
 
 void StreamLimiter::Leave(const std::string& robot) {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   --open_;
   const auto found = of_robot_.find(robot);
   if (found != of_robot_.end() && --found->second <= 0) {
@@ -59,7 +60,7 @@ void StreamLimiter::Leave(const std::string& robot) {
 }
 
 int StreamLimiter::open() const {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   return open_;
 }
 

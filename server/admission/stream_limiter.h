@@ -1,13 +1,13 @@
-// Counts open streams, in all and of each robot. Source: own design.
+// Counts open streams, in total and of each robot.
 #ifndef SERVER_ADMISSION_STREAM_LIMITER_H_
 #define SERVER_ADMISSION_STREAM_LIMITER_H_
 
 #include <map>
-#include <mutex>
 #include <string>
 
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
+#include "homing/base/mutex.h"
 #include "server/admission/limits.h"
 
 namespace homing::server {
@@ -15,7 +15,7 @@ namespace homing::server {
 // Thread-safe.
 class StreamLimiter {
  public:
-  // A stream's place; gives it back at its end.
+  // Holds the place of one open stream; the destructor frees it.
   class Place {
    public:
     Place() = default;
@@ -33,7 +33,7 @@ class StreamLimiter {
   explicit StreamLimiter(const Limits& limits)
       : max_all_(limits.max_streams), max_robot_(limits.max_robot_streams) {}
 
-  // `robot` empty: counts among all only. RESOURCE_EXHAUSTED naming the limit.
+  // `robot` empty: the stream counts in the total only. RESOURCE_EXHAUSTED naming the limit.
   absl::StatusOr<Place> Enter(const std::string& robot);
   int open() const;
 
@@ -42,9 +42,9 @@ class StreamLimiter {
 
   const int max_all_;
   const int max_robot_;
-  mutable std::mutex mutex_;
-  int open_ = 0;
-  std::map<std::string, int> of_robot_;
+  mutable Mutex mutex_;
+  int open_ HOMING_GUARDED_BY(mutex_) = 0;
+  std::map<std::string, int> of_robot_ HOMING_GUARDED_BY(mutex_);
 };
 
 }  // namespace homing::server

@@ -5,6 +5,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_split.h"
+#include "homing/base/field_error.h"
 #include "homing/base/status_macros.h"
 
 namespace homing::server {
@@ -21,12 +22,6 @@ absl::Status CheckIdOrWildcard(const std::string& id, const std::string& field) 
   return id == kWildcard ? absl::OkStatus() : CheckId(id, field);
 }
 
-absl::Status FormError(const std::string& field, const std::string& value,
-                       const std::string& form) {
-  return absl::InvalidArgumentError(
-      absl::StrCat(field, " is \"", value.substr(0, 200), "\"; it must be ", form));
-}
-
 }  // namespace
 
 std::string JourneyName::ToString() const {
@@ -36,7 +31,7 @@ std::string JourneyName::ToString() const {
 absl::Status CheckId(const std::string& id, const std::string& field) {
   if (id.empty() || id.size() > kMaxIdLength || id == kWildcard ||
       !std::all_of(id.begin(), id.end(), IsIdCharacter)) {
-    return FormError(field, id, "1 to 63 of [a-zA-Z0-9._-] and not \"-\"");
+    return TextMustBe(field, id, "1 to 63 of [a-zA-Z0-9._-] and not \"-\"");
   }
   return absl::OkStatus();
 }
@@ -44,7 +39,7 @@ absl::Status CheckId(const std::string& id, const std::string& field) {
 absl::StatusOr<JourneyName> ParseJourneyPattern(const std::string& name, const std::string& field) {
   const std::vector<std::string> parts = absl::StrSplit(name, '/');
   if (parts.size() != 4 || parts[0] != "robots" || parts[2] != "journeys") {
-    return FormError(field, name, "\"robots/{robot}/journeys/{journey}\"");
+    return TextMustBe(field, name, "\"robots/{robot}/journeys/{journey}\"");
   }
   HOMING_RETURN_IF_ERROR(CheckIdOrWildcard(parts[1], field));
   HOMING_RETURN_IF_ERROR(CheckIdOrWildcard(parts[3], field));
@@ -54,7 +49,7 @@ absl::StatusOr<JourneyName> ParseJourneyPattern(const std::string& name, const s
 absl::StatusOr<JourneyName> ParseJourneyName(const std::string& name, const std::string& field) {
   absl::StatusOr<JourneyName> parsed = ParseJourneyPattern(name, field);
   if (parsed.ok() && parsed->is_pattern()) {
-    return FormError(field, name, "one journey; the wildcard \"-\" is not allowed here");
+    return TextMustBe(field, name, "one journey; the wildcard \"-\" is not allowed here");
   }
   return parsed;
 }
@@ -63,7 +58,7 @@ absl::StatusOr<std::string> ParseRobotName(const std::string& name, const std::s
                                            bool wildcard_allowed) {
   const std::vector<std::string> parts = absl::StrSplit(name, '/');
   if (parts.size() != 2 || parts[0] != "robots") {
-    return FormError(field, name, "\"robots/{robot}\"");
+    return TextMustBe(field, name, "\"robots/{robot}\"");
   }
   HOMING_RETURN_IF_ERROR(wildcard_allowed ? CheckIdOrWildcard(parts[1], field)
                                           : CheckId(parts[1], field));
@@ -73,7 +68,7 @@ absl::StatusOr<std::string> ParseRobotName(const std::string& name, const std::s
 absl::StatusOr<std::string> ParseModelName(const std::string& name, const std::string& field) {
   const std::vector<std::string> parts = absl::StrSplit(name, '/');
   if (parts.size() != 2 || parts[0] != "deviationModels") {
-    return FormError(field, name, "\"deviationModels/{model}\"");
+    return TextMustBe(field, name, "\"deviationModels/{model}\"");
   }
   HOMING_RETURN_IF_ERROR(CheckId(parts[1], field));
   return parts[1];

@@ -1,5 +1,5 @@
 // Names of resources: "robots/{robot}/journeys/{journey}", "deviationModels/{model}"; "-" is the
-// wildcard. Source: own design.
+// wildcard.
 #ifndef SERVER_BASE_RESOURCE_NAME_H_
 #define SERVER_BASE_RESOURCE_NAME_H_
 
@@ -13,7 +13,7 @@ namespace homing::server {
 inline constexpr char kWildcard[] = "-";
 
 struct JourneyName {
-  // Either may be kWildcard in a pattern.
+  // In a pattern, either may be kWildcard.
   std::string robot;
   std::string journey;
 
@@ -21,20 +21,20 @@ struct JourneyName {
   std::string ToString() const;
 };
 
-// All: INVALID_ARGUMENT naming `field`, the value and what is allowed.
+// Each returns INVALID_ARGUMENT with `field`, the value and the allowed form.
 
 // 1 to 63 of [a-zA-Z0-9._-], not "-".
 absl::Status CheckId(const std::string& id, const std::string& field);
 absl::StatusOr<JourneyName> ParseJourneyName(const std::string& name, const std::string& field);
 // Wildcards allowed.
 absl::StatusOr<JourneyName> ParseJourneyPattern(const std::string& name, const std::string& field);
-// "robots/{robot}" to the robot's id; "-" only where `wildcard_allowed`.
+// The robot's id in "robots/{robot}"; "-" only if `wildcard_allowed`.
 absl::StatusOr<std::string> ParseRobotName(const std::string& name, const std::string& field,
                                            bool wildcard_allowed);
-// "deviationModels/{model}" to the model's id.
+// The model's id in "deviationModels/{model}".
 absl::StatusOr<std::string> ParseModelName(const std::string& name, const std::string& field);
 
-// True if `name` is one that `pattern` covers.
+// `pattern` covers `name`.
 bool Covers(const JourneyName& pattern, const JourneyName& name);
 
 }  // namespace homing::server

@@ -4,10 +4,12 @@
 #include <opencv2/core/utility.hpp>
 #include <utility>
 
+#include "homing/base/mutex.h"
+
 namespace homing::server {
 namespace {
 
-// A stream with more of them lets others have their turn.
+// After so many tasks of one stream, other streams have their turn.
 constexpr int kTasksATurn = 8;
 
 void RunOpenCvSingleThreaded() {
@@ -27,10 +29,10 @@ WorkerPool::WorkerPool(int workers, int max_waiting)
 
 WorkerPool::~WorkerPool() {
   {
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     stopping_ = true;
   }
-  changed_.notify_all();
+  changed_.NotifyAll();
   for (std::thread& thread : threads_) {
     thread.join();
   }
@@ -38,60 +40,60 @@ WorkerPool::~WorkerPool() {
 
 bool WorkerPool::TryRun(Task task) {
   {
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     if (tasks_.size() >= max_waiting_) {
       return false;
     }
     tasks_.push_back(std::move(task));
   }
-  changed_.notify_one();
+  changed_.NotifyOne();
   return true;
 }
 
 void WorkerPool::Run(Task task) {
   {
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     tasks_.push_back(std::move(task));
   }
-  changed_.notify_one();
+  changed_.NotifyOne();
 }
 
 std::size_t WorkerPool::waiting() const {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   return tasks_.size();
 }
 
 void WorkerPool::Work() {
-  std::unique_lock lock(mutex_);
+  MutexLock lock(mutex_);
   while (true) {
-    changed_.wait(lock, [this] { return stopping_ || !tasks_.empty(); });
+    while (!stopping_ && tasks_.empty()) changed_.Wait(mutex_);
     if (tasks_.empty()) {
       return;
     }
     Task task = std::move(tasks_.front());
     tasks_.pop_front();
-    lock.unlock();
+    lock.Unlock();
     task();
     task = nullptr;
-    lock.lock();
+    lock.Lock();
   }
 }
 
 void Strand::Post(WorkerPool::Task task) {
   {
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     tasks_.push_back(std::move(task));
     if (scheduled_) {
       return;
     }
     scheduled_ = true;
   }
-  GoOn();
+  ScheduleRest();
 }
 
 void Strand::RunOrPost(WorkerPool::Task task) {
   {
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     if (scheduled_) {
       tasks_.push_back(std::move(task));
       return;
@@ -100,16 +102,16 @@ void Strand::RunOrPost(WorkerPool::Task task) {
   }
   task();
   {
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     scheduled_ = !tasks_.empty();
     if (!scheduled_) {
       return;
     }
   }
-  GoOn();
+  ScheduleRest();
 }
 
-void Strand::GoOn() {
+void Strand::ScheduleRest() {
   pool_->Run([self = shared_from_this()] { self->RunSome(); });
 }
 
@@ -117,7 +119,7 @@ void Strand::RunSome() {
   for (int run = 0; run < kTasksATurn; ++run) {
     WorkerPool::Task task;
     {
-      const std::lock_guard lock(mutex_);
+      const MutexLock lock(mutex_);
       if (tasks_.empty()) {
         scheduled_ = false;
         return;
@@ -127,7 +129,7 @@ void Strand::RunSome() {
     }
     task();
   }
-  GoOn();
+  ScheduleRest();
 }
 
 }  // namespace homing::server

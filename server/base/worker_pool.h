@@ -1,47 +1,46 @@
-// A fixed number of threads for all computing; in-order execution within a stream.
-// Source: own design.
+// A fixed number of threads does all computing; tasks of one stream run in order.
 #ifndef SERVER_BASE_WORKER_POOL_H_
 #define SERVER_BASE_WORKER_POOL_H_
 
-#include <condition_variable>
 #include <deque>
 #include <functional>
 #include <list>
 #include <memory>
-#include <mutex>
 #include <thread>
 #include <vector>
 
+#include "homing/base/mutex.h"
+
 namespace homing::server {
 
-// Tasks must not throw. Thread-safe. OpenCV runs single-threaded in this process from the first
-// pool on, so that `workers` is all the parallelism there is.
+// Tasks must not throw. Thread-safe. The first pool makes OpenCV single-threaded in this process,
+// so that `workers` is the whole parallelism.
 class WorkerPool {
  public:
   using Task = std::function<void()>;
 
-  // At least one thread is made. Above `max_waiting` waiting tasks TryRun refuses.
+  // Starts at least one thread. TryRun refuses when `max_waiting` tasks wait.
   explicit WorkerPool(int workers, int max_waiting = 1024);
-  // Runs all that waits, then ends.
+  // Runs all waiting tasks, then stops.
   ~WorkerPool();
   WorkerPool(const WorkerPool&) = delete;
   WorkerPool& operator=(const WorkerPool&) = delete;
 
-  // False, and the task is not run, when too many wait.
+  // False: too many tasks wait, and `task` is not run.
   [[nodiscard]] bool TryRun(Task task);
-  // Never refused: the caller bounds itself (a Strand waits at most once).
+  // Never refuses. The caller must bound its tasks (a Strand has at most one waiting).
   void Run(Task task);
-  // Tasks that wait.
+  // The number of waiting tasks.
   std::size_t waiting() const;
 
  private:
   void Work();
 
   const std::size_t max_waiting_;
-  mutable std::mutex mutex_;
-  std::condition_variable changed_;
-  std::deque<Task> tasks_;
-  bool stopping_ = false;
+  mutable Mutex mutex_;
+  ConditionVariable changed_;
+  std::deque<Task> tasks_ HOMING_GUARDED_BY(mutex_);
+  bool stopping_ HOMING_GUARDED_BY(mutex_) = false;
   std::vector<std::thread> threads_;
 };
 
@@ -52,18 +51,19 @@ class Strand : public std::enable_shared_from_this<Strand> {
   explicit Strand(WorkerPool* pool) : pool_(pool) {}
 
   void Post(WorkerPool::Task task);
-  // Runs it before it returns, on the caller's thread, unless another one runs or waits.
+  // Runs the task on the caller's thread before it returns, unless another task of this strand runs
+  // or waits.
   void RunOrPost(WorkerPool::Task task);
 
  private:
   void RunSome();
-  void GoOn();
+  void ScheduleRest();
 
   WorkerPool* const pool_;
-  std::mutex mutex_;
-  // An empty deque takes 600 bytes, and strands are many.
-  std::list<WorkerPool::Task> tasks_;
-  bool scheduled_ = false;
+  Mutex mutex_;
+  // A list: an empty deque takes 600 bytes, and there are many strands.
+  std::list<WorkerPool::Task> tasks_ HOMING_GUARDED_BY(mutex_);
+  bool scheduled_ HOMING_GUARDED_BY(mutex_) = false;
 };
 
 }  // namespace homing::server

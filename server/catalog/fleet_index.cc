@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "absl/strings/str_cat.h"
+#include "homing/base/mutex.h"
 #include "homing/base/status_macros.h"
 #include "server/base/error_reason.h"
 
@@ -11,7 +12,7 @@ namespace homing::server {
 namespace {
 
 constexpr int kRecordPage = 1000;
-// Of what was deleted, taken out at each change: well under a millisecond.
+// Buckets swept at each change: well under a millisecond.
 constexpr std::uint32_t kSweptAtOnce = 64;
 
 }  // namespace
@@ -25,12 +26,12 @@ FleetIndex::~FleetIndex() {
 }
 
 void FleetIndex::Build() {
-  const std::lock_guard lock(data_mutex_);
+  const MutexLock lock(data_mutex_);
   index_.BeginLoading();
   const absl::Status status = LoadAll();
   index_.EndLoading();
-  TakeIn();
-  const std::lock_guard queue_lock(queue_mutex_);
+  ApplyPending();
+  const MutexLock queue_lock(queue_mutex_);
   build_status_ = status;
   ready_ = status.ok();
 }
@@ -57,7 +58,7 @@ absl::Status FleetIndex::Load(const storage::JourneyRecord& record) {
   }
   const absl::StatusOr<JourneyMap> map = store_->LoadMap(record.name);
   if (absl::IsNotFound(map.status())) {
-    // Deleted since it was listed.
+    // The journey was deleted after it was listed.
     return absl::OkStatus();
   }
   HOMING_RETURN_IF_ERROR(map.status());
@@ -68,36 +69,38 @@ absl::Status FleetIndex::Load(const storage::JourneyRecord& record) {
 }
 
 void FleetIndex::Created(const std::string& name, const JourneySettings& settings) {
-  Tell({name, settings, std::nullopt, nullptr, false});
+  Enqueue({name, settings, std::nullopt, nullptr, false});
 }
 
 void FleetIndex::Appended(const std::string& name, const JourneySettings& settings,
                           const JourneyStep& step) {
-  Tell({name, settings, step, nullptr, false});
+  Enqueue({name, settings, step, nullptr, false});
 }
 
 void FleetIndex::Imported(const std::string& name, const JourneySettings& settings,
                           const JourneyMap& map) {
-  Tell({name, settings, std::nullopt, std::make_shared<const JourneyMap>(map), false});
+  Enqueue({name, settings, std::nullopt, std::make_shared<const JourneyMap>(map), false});
 }
 
-void FleetIndex::Deleted(const std::string& name) { Tell({name, {}, std::nullopt, nullptr, true}); }
+void FleetIndex::Deleted(const std::string& name) {
+  Enqueue({name, {}, std::nullopt, nullptr, true});
+}
 
-void FleetIndex::Tell(Change change) {
+void FleetIndex::Enqueue(Change change) {
   {
-    const std::lock_guard lock(queue_mutex_);
+    const MutexLock lock(queue_mutex_);
     queue_.push_back(std::move(change));
   }
-  if (data_mutex_.try_lock()) {
-    TakeIn();
-    data_mutex_.unlock();
+  if (data_mutex_.TryLock()) {
+    ApplyPending();
+    data_mutex_.Unlock();
   }
 }
 
-void FleetIndex::TakeIn() {
+void FleetIndex::ApplyPending() {
   std::vector<Change> changes;
   {
-    const std::lock_guard lock(queue_mutex_);
+    const MutexLock lock(queue_mutex_);
     changes.swap(queue_);
   }
   for (const Change& change : changes) {
@@ -112,7 +115,7 @@ void FleetIndex::Apply(const Change& change) {
   }
   Entry& entry = entries_[static_cast<std::size_t>(JourneyOf(change.name, change.settings))];
   const int journey = numbers_.at(change.name);
-  // What was built from the disk may hold it already.
+  // The index that was built from the store may already hold it.
   if (change.step && change.step->step >= entry.next_step) {
     index_.Append(journey, *change.step);
     entry.next_step = change.step->step + 1;
@@ -122,14 +125,15 @@ void FleetIndex::Apply(const Change& change) {
   }
 }
 
-// Known, or new; its settings are those given.
+// The number of a known or new journey. Updates its settings.
 int FleetIndex::JourneyOf(const std::string& name, const JourneySettings& settings) {
   const std::size_t same = SettingsOf(settings);
   const auto found = numbers_.find(name);
   if (found == numbers_.end()) {
     const int journey = index_.AddJourney(name, settings.deviation_model);
     numbers_[name] = journey;
-    entries_.push_back({same, 0});
+    entries_.resize(std::max(entries_.size(), static_cast<std::size_t>(journey) + 1));
+    entries_[static_cast<std::size_t>(journey)] = {same, 0};
     ++settings_[same].journeys;
     return journey;
   }
@@ -144,11 +148,18 @@ std::size_t FleetIndex::SettingsOf(const JourneySettings& settings) {
   const auto found = std::find_if(settings_.begin(), settings_.end(), [&](const Settings& known) {
     return known.settings == settings;
   });
-  if (found == settings_.end()) {
+  if (found != settings_.end()) {
+    return static_cast<std::size_t>(found - settings_.begin());
+  }
+  // A removed journey may still name the slot; no search covers that journey.
+  const auto unused = std::find_if(settings_.begin(), settings_.end(),
+                                   [](const Settings& known) { return known.journeys == 0; });
+  if (unused == settings_.end()) {
     settings_.push_back({settings, 0});
     return settings_.size() - 1;
   }
-  return static_cast<std::size_t>(found - settings_.begin());
+  unused->settings = settings;
+  return static_cast<std::size_t>(unused - settings_.begin());
 }
 
 void FleetIndex::Remove(const std::string& name) {
@@ -164,26 +175,26 @@ absl::Status FleetIndex::CheckReady() const {
   if (ready_) {
     return absl::OkStatus();
   }
-  const std::lock_guard lock(queue_mutex_);
+  const MutexLock lock(queue_mutex_);
   return WithReason(
       absl::UnavailableError(absl::StrCat(
-          "journey is \"robots/-/journeys/-\"; the index of all journeys ",
+          "journey: \"robots/-/journeys/-\" needs the index of all journeys, which ",
           build_status_.ok() ? "is still being built"
                              : "could not be built: " + std::string(build_status_.message()))),
       {"INDEX_NOT_READY", {}});
 }
 
-std::shared_lock<std::shared_mutex> FleetIndex::Lock() {
+FleetIndex::ReadLock::ReadLock(FleetIndex* index) : index_(index) {
   bool behind = false;
   {
-    const std::lock_guard lock(queue_mutex_);
-    behind = !queue_.empty();
+    const MutexLock lock(index_->queue_mutex_);
+    behind = !index_->queue_.empty();
   }
   if (behind) {
-    const std::lock_guard lock(data_mutex_);
-    TakeIn();
+    const MutexLock lock(index_->data_mutex_);
+    index_->ApplyPending();
   }
-  return std::shared_lock(data_mutex_);
+  index_->data_mutex_.LockShared();
 }
 
 absl::StatusOr<SettingsSelection> FleetIndex::SelectLocked(const QueryRobot& robot) const {
@@ -191,7 +202,7 @@ absl::StatusOr<SettingsSelection> FleetIndex::SelectLocked(const QueryRobot& rob
   for (const Settings& settings : settings_) {
     uses.push_back({&settings.settings, settings.journeys, ""});
   }
-  // Only a tie asks for the names.
+  // The names are needed to break a tie only.
   HOMING_ASSIGN_OR_RETURN(SettingsSelection selection, SelectSettings(uses, robot));
   if (selection.is_tie) {
     for (const auto& [name, journey] : numbers_) {
@@ -205,7 +216,7 @@ absl::StatusOr<SettingsSelection> FleetIndex::SelectLocked(const QueryRobot& rob
 
 absl::StatusOr<LocalizerOptions> FleetIndex::Select(const QueryRobot& robot) {
   HOMING_RETURN_IF_ERROR(CheckReady());
-  const auto lock = Lock();
+  const ReadLock lock(this);
   HOMING_ASSIGN_OR_RETURN(SettingsSelection selection, SelectLocked(robot));
   return selection.options;
 }
@@ -213,9 +224,9 @@ absl::StatusOr<LocalizerOptions> FleetIndex::Select(const QueryRobot& robot) {
 absl::StatusOr<std::vector<std::pair<std::string, Match>>> FleetIndex::Find(
     const QueryRobot& robot, const SeenSides& seen, const MatchOptions& options) {
   HOMING_RETURN_IF_ERROR(CheckReady());
-  const auto lock = Lock();
+  const ReadLock lock(this);
   HOMING_ASSIGN_OR_RETURN(const SettingsSelection selection, SelectLocked(robot));
-  const auto covers = [&](int journey) {
+  const auto covers = [&](int journey) HOMING_REQUIRES_SHARED(data_mutex_) {
     return bool{selection.chosen[entries_[static_cast<std::size_t>(journey)].settings]};
   };
   std::vector<std::pair<std::string, Match>> matches;

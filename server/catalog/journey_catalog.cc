@@ -1,10 +1,10 @@
 #include "server/catalog/journey_catalog.h"
 
-#include <algorithm>
 #include <functional>
 #include <utility>
 
 #include "absl/strings/str_cat.h"
+#include "homing/base/mutex.h"
 #include "homing/base/status_macros.h"
 #include "server/base/error_reason.h"
 #include "server/catalog/fleet_index.h"
@@ -20,8 +20,8 @@ std::string PrefixOf(const std::string& robot) {
   return robot == kWildcard ? "robots/" : absl::StrCat("robots/", robot, "/journeys/");
 }
 
-// Image sizes that the request left open are filled in by the first observation: they differ
-// without being other settings.
+// The first observation sets image sizes that the request left open. Such a difference is not a
+// difference of settings.
 JourneySettings WithSizesOf(JourneySettings settings, const JourneySettings& known) {
   for (std::size_t side = 0; side < settings.cameras.size(); ++side) {
     if (settings.cameras[side].width == 0 && settings.cameras[side].height == 0) {
@@ -32,79 +32,48 @@ JourneySettings WithSizesOf(JourneySettings settings, const JourneySettings& kno
   return settings;
 }
 
+absl::Status NoneCovered(const JourneyName& pattern) {
+  return absl::NotFoundError(
+      absl::StrCat("journey: \"", pattern.ToString(), "\" covers no journey"));
+}
+
 bool IsSameJourney(const JourneyRecord& wanted, const JourneyRecord& present) {
   return present.state == storage::JourneyState::kActive && !wanted.writer_id.empty() &&
          wanted.writer_id == present.writer_id &&
+         std::ranges::is_permutation(wanted.readers, present.readers) &&
          WithSizesOf(wanted.settings, present.settings) == present.settings;
 }
 
 }  // namespace
 
-std::mutex& JourneyCatalog::StripeOf(const std::string& name) {
+Mutex& JourneyCatalog::StripeOf(const std::string& name) {
   return stripes_[std::hash<std::string>()(name) % stripes_.size()];
 }
 
-std::shared_ptr<LiveJourney> JourneyCatalog::Find(const std::string& name) {
-  const std::lock_guard lock(mutex_);
-  const auto found = live_.find(name);
-  return found == live_.end() ? nullptr : Use(&found->second);
-}
-
-std::shared_ptr<LiveJourney> JourneyCatalog::Use(Cached* cached) {
-  cached->last_used = ++uses_;
-  return cached->journey;
-}
-
-void JourneyCatalog::LetGoOfUnused() {
-  if (options_.cache_bytes <= 0) {
-    return;
-  }
-  const std::lock_guard lock(mutex_);
-  std::int64_t bytes = 0;
-  std::vector<std::pair<std::uint64_t, std::map<std::string, Cached>::iterator>> unused;
-  for (auto cached = live_.begin(); cached != live_.end(); ++cached) {
-    bytes += cached->second.journey->MemoryBytes();
-    // Only the catalog holds it, and the catalog alone hands it out.
-    if (cached->second.journey.use_count() == 1 && cached->second.journey->IsIdle(now_)) {
-      unused.emplace_back(cached->second.last_used, cached);
-    }
-  }
-  if (bytes <= options_.cache_bytes) {
-    return;
-  }
-  std::sort(unused.begin(), unused.end(),
-            [](const auto& a, const auto& b) { return a.first < b.first; });
-  // Some room is made at once, so that this is not done at each use.
-  for (const auto& [last_used, cached] : unused) {
-    if (bytes <= options_.cache_bytes / 10 * 9) {
-      return;
-    }
-    bytes -= cached->second.journey->MemoryBytes();
-    live_.erase(cached);
-  }
-}
-
 absl::StatusOr<std::shared_ptr<LiveJourney>> JourneyCatalog::OpenLocked(const std::string& name) {
-  if (auto journey = Find(name)) {
+  if (auto journey = cache_.Find(name)) {
     return journey;
   }
   HOMING_ASSIGN_OR_RETURN(JourneyRecord record, store_->GetJourney(name));
   auto journey = std::make_shared<LiveJourney>(std::move(record), store_, index_);
-  const std::lock_guard lock(mutex_);
-  live_[name] = {journey, ++uses_};
+  cache_.Insert(name, journey);
   return journey;
 }
 
-absl::StatusOr<std::shared_ptr<LiveJourney>> JourneyCatalog::Open(const std::string& name) {
-  auto journey = Find(name);
-  if (!journey) {
-    const std::lock_guard lock(StripeOf(name));
-    HOMING_ASSIGN_OR_RETURN(journey, OpenLocked(name));
+absl::StatusOr<std::shared_ptr<LiveJourney>> JourneyCatalog::FindOrOpen(const std::string& name) {
+  if (auto journey = cache_.Find(name)) {
+    return journey;
   }
+  const MutexLock lock(StripeOf(name));
+  return OpenLocked(name);
+}
+
+absl::StatusOr<std::shared_ptr<LiveJourney>> JourneyCatalog::Open(const std::string& name) {
+  HOMING_ASSIGN_OR_RETURN(auto journey, FindOrOpen(name));
   if (!journey->has_map()) {
-    // Without the stripe: a long map keeps no writer waiting.
+    // The stripe is not held: loading a long map must not block a writer.
     HOMING_RETURN_IF_ERROR(journey->LoadMap());
-    LetGoOfUnused();
+    cache_.EvictUnused();
   }
   return journey;
 }
@@ -115,12 +84,13 @@ absl::StatusOr<JourneyRecord> JourneyCatalog::GetSameOrExists(const JourneyRecor
     return present;
   }
   return absl::AlreadyExistsError(
-      absl::StrCat("journey is \"", record.name,
-                   "\"; it exists, and is finished or of another writer_id or other settings"));
+      absl::StrCat("journey: \"", record.name,
+                   "\" exists, and is finished, or has another writer_id, other settings or "
+                   "other readers (SetReaders changes these)"));
 }
 
 absl::StatusOr<JourneyRecord> JourneyCatalog::Create(const JourneyRecord& record) {
-  const std::lock_guard lock(StripeOf(record.name));
+  const MutexLock lock(StripeOf(record.name));
   const absl::Status status = store_->CreateJourney(record);
   if (absl::IsAlreadyExists(status)) {
     return GetSameOrExists(record);
@@ -133,7 +103,7 @@ absl::StatusOr<JourneyRecord> JourneyCatalog::Create(const JourneyRecord& record
 }
 
 absl::StatusOr<JourneyRecord> JourneyCatalog::Get(const std::string& name) {
-  if (const auto journey = Find(name)) {
+  if (const auto journey = cache_.Find(name)) {
     return journey->record();
   }
   return store_->GetJourney(name);
@@ -164,11 +134,11 @@ absl::StatusOr<std::vector<JourneyRecord>> JourneyCatalog::List(const std::strin
 }
 
 absl::Status JourneyCatalog::Delete(const std::string& name) {
-  const std::lock_guard lock(StripeOf(name));
-  const auto journey = Find(name);
+  const MutexLock lock(StripeOf(name));
+  const auto journey = cache_.Find(name);
   if (journey) {
     journey->EvictWriter(
-        WithReason(absl::AbortedError(absl::StrCat("journey is \"", name, "\"; it was deleted")),
+        WithReason(absl::AbortedError(absl::StrCat("journey: \"", name, "\" was deleted")),
                    {"JOURNEY_DELETED", {}}));
   }
   HOMING_RETURN_IF_ERROR(store_->DeleteJourney(name));
@@ -177,21 +147,24 @@ absl::Status JourneyCatalog::Delete(const std::string& name) {
   }
   if (journey) {
     journey->MarkDeleted();
-    const std::lock_guard table_lock(mutex_);
-    live_.erase(name);
+    cache_.Erase(name);
   }
   return absl::OkStatus();
 }
 
 absl::StatusOr<JourneyRecord> JourneyCatalog::Finish(const std::string& name,
-                                                     const std::string& writer_id, TimePoint now) {
-  const std::lock_guard lock(StripeOf(name));
-  const auto journey = Find(name);
+                                                     const std::string& writer_id, bool force,
+                                                     TimePoint now) {
+  const MutexLock lock(StripeOf(name));
+  const auto journey = cache_.Find(name);
   if (journey) {
-    HOMING_RETURN_IF_ERROR(journey->CheckWriter(writer_id, now));
+    if (!force) {
+      HOMING_RETURN_IF_ERROR(writer_id.empty() ? journey->CheckNoStream(now)
+                                               : journey->CheckWriter(writer_id, now));
+    }
     journey->EvictWriter(
         WithReason(absl::FailedPreconditionError(absl::StrCat(
-                       "journey is \"", name, "\"; it is finished and takes no observations")),
+                       "journey: \"", name, "\" is finished and takes no observations")),
                    {"JOURNEY_FINISHED", {}}));
   }
   HOMING_RETURN_IF_ERROR(store_->FinishJourney(name));
@@ -201,9 +174,19 @@ absl::StatusOr<JourneyRecord> JourneyCatalog::Finish(const std::string& name,
   return Get(name);
 }
 
+absl::StatusOr<JourneyRecord> JourneyCatalog::SetReaders(const std::string& name,
+                                                         const std::vector<std::string>& readers) {
+  const MutexLock lock(StripeOf(name));
+  HOMING_RETURN_IF_ERROR(store_->SetReaders(name, readers));
+  if (const auto journey = cache_.Find(name)) {
+    journey->SetReaders(readers);
+  }
+  return Get(name);
+}
+
 absl::StatusOr<JourneyRecord> JourneyCatalog::Import(const JourneyRecord& record,
                                                      const JourneyMap& map) {
-  const std::lock_guard lock(StripeOf(record.name));
+  const MutexLock lock(StripeOf(record.name));
   HOMING_RETURN_IF_ERROR(store_->ImportJourney(record, map));
   if (index_ != nullptr) {
     index_->Imported(record.name, record.settings, map);
@@ -217,9 +200,9 @@ absl::Status JourneyCatalog::AddIfCovered(const JourneyName& pattern, const std:
   if (!Covers(pattern, parsed)) {
     return absl::OkStatus();
   }
-  auto journey = Open(name);
+  auto journey = FindOrOpen(name);
   if (!journey.ok()) {
-    // Deleted since it was listed: it is not there, which is no error of a wildcard.
+    // The journey was deleted after it was listed: a wildcard ignores that.
     return absl::IsNotFound(journey.status()) ? absl::OkStatus() : journey.status();
   }
   journeys->push_back(*std::move(journey));
@@ -230,7 +213,7 @@ absl::StatusOr<LiveJourneys> JourneyCatalog::Resolve(const JourneyName& pattern,
                                                      const JourneyFilter& filter) {
   LiveJourneys journeys;
   if (!pattern.is_pattern()) {
-    HOMING_ASSIGN_OR_RETURN(auto journey, Open(pattern.ToString()));
+    HOMING_ASSIGN_OR_RETURN(auto journey, FindOrOpen(pattern.ToString()));
     journeys.push_back(std::move(journey));
     return journeys;
   }
@@ -249,10 +232,43 @@ absl::StatusOr<LiveJourneys> JourneyCatalog::Resolve(const JourneyName& pattern,
     after = page.back().name;
   }
   if (journeys.empty()) {
-    return absl::NotFoundError(
-        absl::StrCat("journey is \"", pattern.ToString(), "\"; no journey is covered by it"));
+    return NoneCovered(pattern);
   }
   return journeys;
+}
+
+absl::Status JourneyCatalog::LoadMap(const JourneyName& pattern, LiveJourney* journey) {
+  if (journey->has_map()) {
+    return absl::OkStatus();
+  }
+  HOMING_RETURN_IF_ERROR(journey->LoadMap());
+  const std::int64_t bytes = cache_.EvictUnused();
+  // A robot that names its journey is served at any size.
+  if (pattern.is_pattern() && bytes > options_.cache_bytes) {
+    return WithReason(
+        absl::ResourceExhaustedError(absl::StrCat(
+            "journey: \"", pattern.ToString(), "\" needs more memory for maps than map-cache, ",
+            options_.cache_bytes, " bytes; name fewer journeys, or raise map-cache")),
+        {"MAP_CACHE", {}});
+  }
+  return absl::OkStatus();
+}
+
+absl::Status JourneyCatalog::LoadMaps(const JourneyName& pattern, LiveJourneys* journeys) {
+  LiveJourneys loaded;
+  for (const std::shared_ptr<LiveJourney>& journey : *journeys) {
+    const absl::Status status = LoadMap(pattern, journey.get());
+    if (status.ok()) {
+      loaded.push_back(journey);
+    } else if (!pattern.is_pattern() || !absl::IsNotFound(status)) {
+      return status;
+    }
+  }
+  if (loaded.empty()) {
+    return NoneCovered(pattern);
+  }
+  *journeys = std::move(loaded);
+  return absl::OkStatus();
 }
 
 absl::StatusOr<WriterClaim> JourneyCatalog::Claim(const std::string& name,
@@ -261,18 +277,15 @@ absl::StatusOr<WriterClaim> JourneyCatalog::Claim(const std::string& name,
   if (store_->read_only()) {
     return absl::FailedPreconditionError("the server is read-only: it records nothing");
   }
-  const std::lock_guard lock(StripeOf(name));
-  auto journey = Find(name);
+  const MutexLock lock(StripeOf(name));
+  auto journey = cache_.Find(name);
   if (!journey) {
     HOMING_ASSIGN_OR_RETURN(journey, OpenLocked(name));
-    LetGoOfUnused();
+    cache_.EvictUnused();
   }
-  {
-    const std::lock_guard table_lock(mutex_);
-    now_ = std::max(now_, now);
-  }
+  cache_.SetTime(now);
   HOMING_RETURN_IF_ERROR(journey->CheckClaim(writer_id, now));
-  // First on disk: what is in memory is durable.
+  // Disk first: memory holds committed state only.
   if (journey->record().writer_id != writer_id) {
     HOMING_RETURN_IF_ERROR(store_->SetWriter(name, writer_id));
   }

@@ -1,25 +1,25 @@
-// All journeys: on disk, and in memory once they are used. Source: own design.
+// All journeys: stored, and loaded while in use.
 #ifndef SERVER_CATALOG_JOURNEY_CATALOG_H_
 #define SERVER_CATALOG_JOURNEY_CATALOG_H_
 
 #include <array>
 #include <functional>
-#include <map>
 #include <memory>
-#include <mutex>
 #include <string>
 #include <vector>
 
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
+#include "homing/base/mutex.h"
 #include "server/base/resource_name.h"
+#include "server/catalog/journey_cache.h"
 #include "server/catalog/live_journey.h"
 #include "storage/journey_store.h"
 
 namespace homing::server {
 
 class FleetIndex;
-// Which journeys of many are there for the one who asks; empty: all.
+// Selects the journeys that a caller may use. Empty: all.
 using JourneyFilter = std::function<bool(const storage::JourneyRecord&)>;
 
 // A stream's right to write a journey.
@@ -29,83 +29,80 @@ struct WriterClaim {
 };
 
 struct CatalogOptions {
-  // Maps that no one uses are let go of, those unused longest first, while all together take more
-  // than this, bytes. 0: no limit.
+  // Map-cache limit in bytes; unused maps are evicted, least recently used first. 0: unlimited.
   std::int64_t cache_bytes = 0;
 };
 
-// Names given here are well formed (resource_name.h). Errors of the store pass through.
+// Names must be well formed (resource_name.h). Errors of the store are returned unchanged.
 // Thread-safe.
 class JourneyCatalog {
  public:
-  // `store` must outlive the catalog; `index`, if there is one, as well: it is told of all changes.
+  // `store`, and `index` unless null, must outlive the catalog. Every change is reported to
+  // `index`.
   explicit JourneyCatalog(storage::JourneyStore* store, const CatalogOptions& options = {},
                           FleetIndex* index = nullptr)
-      : store_(store), options_(options), index_(index) {}
+      : store_(store), options_(options), index_(index), cache_(options.cache_bytes) {}
 
-  // Null: there is none.
+  bool read_only() const { return store_->read_only(); }
+  // Null without an index.
   FleetIndex* index() const { return index_; }
 
-  // Creates; or, when a journey of that name is active, of the same writer_id (not empty) and of
-  // the same settings, returns that one. ALREADY_EXISTS.
+  // Creates a journey. Returns the existing one if it is active and has the same writer_id (not
+  // empty), settings and readers (in any order); else ALREADY_EXISTS.
   absl::StatusOr<storage::JourneyRecord> Create(const storage::JourneyRecord& record);
-  // As in memory when it is there, else as on disk. NOT_FOUND.
+  // The loaded journey's record, or the stored one. NOT_FOUND.
   absl::StatusOr<storage::JourneyRecord> Get(const std::string& name);
-  // In order of name, after `after`, of one robot or of all (kWildcard), those that `filter` lets
-  // through; at most `limit`.
+  // The records after the name `after`, of one robot or of all (kWildcard), that pass `filter`; at
+  // most `limit`, in order of name.
   absl::StatusOr<std::vector<storage::JourneyRecord>> List(const std::string& robot,
                                                            const std::string& after, int limit,
                                                            const JourneyFilter& filter = nullptr);
-  // An active writer's stream ends ABORTED. NOT_FOUND.
+  // Ends an active writer's stream with ABORTED. NOT_FOUND.
   absl::Status Delete(const std::string& name);
-  // An active writer's stream ends FAILED_PRECONDITION. NOT_FOUND; ABORTED: `writer_id` is not that
-  // of the lease that lives.
+  // Ends an active writer's stream with FAILED_PRECONDITION. NOT_FOUND; ABORTED, unless `force`:
+  // another writer than `writer_id` holds the lease, or it is empty and a stream records.
   absl::StatusOr<storage::JourneyRecord> Finish(const std::string& name,
-                                                const std::string& writer_id, TimePoint now);
+                                                const std::string& writer_id, bool force,
+                                                TimePoint now);
+  // NOT_FOUND.
+  absl::StatusOr<storage::JourneyRecord> SetReaders(const std::string& name,
+                                                    const std::vector<std::string>& readers);
   // ALREADY_EXISTS, INVALID_ARGUMENT.
   absl::StatusOr<storage::JourneyRecord> Import(const storage::JourneyRecord& record,
                                                 const JourneyMap& map);
 
-  // With its map, which is loaded on first use. NOT_FOUND.
+  // The journey with its map, loaded if necessary. NOT_FOUND.
   absl::StatusOr<std::shared_ptr<LiveJourney>> Open(const std::string& name);
-  // All that `pattern` covers and, if it is one, `filter` lets through, in order of name, with
-  // their maps. NOT_FOUND: none.
+  // The journeys that `pattern` covers, in order of name; `filter` applies to a wildcard only.
+  // Loads no map. NOT_FOUND: none.
   absl::StatusOr<LiveJourneys> Resolve(const JourneyName& pattern,
                                        const JourneyFilter& filter = nullptr);
-  // As LiveJourney::Claim; the writer is kept on disk. Loads no map. NOT_FOUND.
+  // Loads the maps of journeys that Resolve returned for `pattern`. Of a wildcard, drops those that
+  // were deleted meanwhile. NOT_FOUND: none is left. RESOURCE_EXHAUSTED: the maps of a wildcard,
+  // and those in use by others, need more memory than cache_bytes.
+  absl::Status LoadMaps(const JourneyName& pattern, LiveJourneys* journeys);
+  // As LiveJourney::Claim; also stores the writer. Loads no map. NOT_FOUND.
   absl::StatusOr<WriterClaim> Claim(const std::string& name, const std::string& writer_id,
                                     TimePoint now, WriterLease::Evict evict);
 
  private:
-  // Serialises what makes, loads, finishes and deletes one journey.
-  std::mutex& StripeOf(const std::string& name);
-  std::shared_ptr<LiveJourney> Find(const std::string& name);
-  // Without its map. REQUIRES: the stripe.
+  // Serialises creation, loading, finishing and deletion of one journey.
+  Mutex& StripeOf(const std::string& name);
+  // Without its map. REQUIRES: the stripe is locked.
   absl::StatusOr<std::shared_ptr<LiveJourney>> OpenLocked(const std::string& name);
   absl::StatusOr<storage::JourneyRecord> GetSameOrExists(const storage::JourneyRecord& record);
 
   absl::Status AddIfCovered(const JourneyName& pattern, const std::string& name,
                             LiveJourneys* journeys);
-
-  struct Cached {
-    std::shared_ptr<LiveJourney> journey;
-    // Grows with each use.
-    std::uint64_t last_used = 0;
-  };
-  // REQUIRES: mutex_.
-  std::shared_ptr<LiveJourney> Use(Cached* cached);
-  // As cache_bytes says.
-  void LetGoOfUnused();
+  absl::Status LoadMap(const JourneyName& pattern, LiveJourney* journey);
+  // NOT_FOUND: a journey of that name is neither in memory nor on disk.
+  absl::StatusOr<std::shared_ptr<LiveJourney>> FindOrOpen(const std::string& name);
 
   storage::JourneyStore* const store_;
   const CatalogOptions options_;
   FleetIndex* const index_;
-  std::array<std::mutex, 32> stripes_;
-  std::mutex mutex_;
-  std::map<std::string, Cached> live_;
-  std::uint64_t uses_ = 0;
-  // The latest that a caller told.
-  TimePoint now_;
+  std::array<Mutex, 32> stripes_;
+  JourneyCache cache_;
 };
 
 }  // namespace homing::server

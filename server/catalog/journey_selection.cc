@@ -16,8 +16,8 @@ struct Candidate {
   LocalizerOptions options;
 };
 
-// The robot's own camera, or that of the journey, whose left camera is the robot's left camera: the
-// same robot comes home. Sizes are those of what it sends now.
+// The robot's own camera, or else the journey's: the robot that recorded it comes home. The sizes
+// are those of the images it sends now.
 Camera CameraOf(const QueryRobot& robot, const JourneySettings& settings, std::size_t side) {
   Camera camera = robot.cameras[side].value_or(settings.cameras[side]);
   if (!robot.cameras[side]) {
@@ -61,7 +61,7 @@ LocalizerOptions MostFrequent(const std::vector<Candidate>& candidates) {
           })->first;
 }
 
-// Journeys whose settings are the same to a robot.
+// Journeys with equal settings, as seen by one robot.
 struct Group {
   LocalizerOptions options;
   std::int64_t journeys = 0;
@@ -89,7 +89,7 @@ void Count(const SettingsUse& use, std::size_t index, const LocalizerOptions& op
 
 absl::Status NoneLeft(const JourneyName& pattern, std::int64_t covered, const absl::Status& last) {
   return WithReason(absl::FailedPreconditionError(absl::StrCat(
-                        "journey is \"", pattern.ToString(), "\"; it covers ", covered,
+                        "journey: \"", pattern.ToString(), "\" covers ", covered,
                         " journeys, and none has the camera and settings of the query: ",
                         std::string(last.message()))),
                     {"OTHER_SETTINGS", {}});
@@ -145,8 +145,7 @@ absl::StatusOr<SettingsSelection> SelectSettings(const std::vector<SettingsUse>&
     }
   }
   if (journeys == 0) {
-    return absl::NotFoundError(
-        absl::StrCat("journey is \"", all.ToString(), "\"; no journey is covered by it"));
+    return absl::NotFoundError(absl::StrCat("journey: \"", all.ToString(), "\" covers no journey"));
   }
   if (groups.empty()) {
     return NoneLeft(all, journeys, last);

@@ -1,5 +1,4 @@
-// Which journeys a query is compared with: those whose camera and settings agree with it.
-// Source: own design.
+// Selects the journeys that a query is compared with: those whose camera and settings match.
 #ifndef SERVER_CATALOG_JOURNEY_SELECTION_H_
 #define SERVER_CATALOG_JOURNEY_SELECTION_H_
 
@@ -15,12 +14,12 @@
 
 namespace homing::server {
 
-// What is known of the robot that asks.
+// The robot that sends the query.
 struct QueryRobot {
   Travel travel = Travel::kReturn;
-  // As the robot says, by Side of the ROBOT; absent: those of the journey.
+  // As the request gives them, by Side of the ROBOT; absent: the journey's.
   std::array<std::optional<Camera>, 2> cameras;
-  // Sizes of the images it sends, pixels; 0: not known.
+  // Sizes of the images it sends, pixels; 0: unknown.
   std::array<int, 2> widths{};
   std::array<int, 2> heights{};
 };
@@ -28,35 +27,36 @@ struct QueryRobot {
 struct JourneySelection {
   // In order of name.
   LiveJourneys journeys;
-  // travel, cameras, flow and landmark set; the rest as by default.
+  // Sets travel, cameras, flow and landmark; the rest has its default.
   LocalizerOptions options;
 };
 
-// Of the journeys covered by `pattern`. A named one must agree: FAILED_PRECONDITION. With a
-// wildcard, those whose image sizes differ are skipped; then those whose settings are not the
-// most frequent ones (ties: the first in order of name) are. FAILED_PRECONDITION: none is left.
+// Selects among the journeys that `pattern` covers. A named journey must match:
+// FAILED_PRECONDITION. A wildcard skips journeys with other image sizes, then those whose settings
+// are not the most frequent ones (a tie: the first in order of name). FAILED_PRECONDITION: none is
+// left.
 absl::StatusOr<JourneySelection> SelectJourneys(const LiveJourneys& covered,
                                                 const JourneyName& pattern,
                                                 const QueryRobot& robot);
 
-// Settings, and how many of the journeys covered have them.
+// Settings, and the number of covered journeys that have them.
 struct SettingsUse {
   const JourneySettings* settings = nullptr;
   std::int64_t journeys = 0;
-  // Of those journeys, in order of name. Empty: not known.
+  // The first of these journeys in order of name. Empty: unknown.
   std::string first_name;
 };
 
 struct SettingsSelection {
   // As in JourneySelection.
   LocalizerOptions options;
-  // By the order of the uses given: whether journeys of these settings are chosen.
+  // Indexed as the uses given: journeys of these settings are selected.
   std::vector<bool> chosen;
-  // Others are as frequent: the first names decide.
+  // Other settings are as frequent: the first names decide.
   bool is_tie = false;
 };
 
-// The choice of SelectJourneys for a wildcard, from counts alone. NOT_FOUND: no journeys;
+// The selection of SelectJourneys for a wildcard, from counts alone. NOT_FOUND: no journeys;
 // FAILED_PRECONDITION: none is left.
 absl::StatusOr<SettingsSelection> SelectSettings(const std::vector<SettingsUse>& uses,
                                                  const QueryRobot& robot);

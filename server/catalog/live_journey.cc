@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "absl/strings/str_cat.h"
+#include "homing/base/mutex.h"
 #include "homing/base/status_macros.h"
 #include "server/base/error_reason.h"
 #include "server/catalog/fleet_index.h"
@@ -13,8 +14,8 @@ namespace {
 
 absl::Status ClaimOver(const std::string& name) {
   return WithReason(
-      absl::AbortedError(absl::StrCat("journey is \"", name,
-                                      "\"; another stream took it over, one stream may write it")),
+      absl::AbortedError(absl::StrCat(
+          "journey: \"", name, "\" was taken over by another stream; one stream may write it")),
       {"WRITER_REPLACED", {}});
 }
 
@@ -33,18 +34,18 @@ LiveJourney::LiveJourney(storage::JourneyRecord record, storage::JourneyStore* s
     : name_(record.name), store_(store), index_(index), record_(std::move(record)) {}
 
 storage::JourneyRecord LiveJourney::record() const {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   return record_;
 }
 
 bool LiveJourney::deleted() const {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   return deleted_;
 }
 
 std::int64_t LiveJourney::MemoryBytes() const {
   constexpr std::int64_t kBytesAJourney = 2048;
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   if (map_state_ == MapState::kNone) return kBytesAJourney;
   const auto steps = static_cast<std::int64_t>(2 * sizeof(std::int64_t) + 2 * sizeof(FlowProfile));
   return kBytesAJourney + record_.step_count * steps +
@@ -53,12 +54,12 @@ std::int64_t LiveJourney::MemoryBytes() const {
 }
 
 bool LiveJourney::IsIdle(TimePoint now) const {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   return appends_under_way_ == 0 && lease_.CheckFree("", now).ok();
 }
 
 absl::Status LiveJourney::CheckPresent() const {
-  return deleted_ ? absl::NotFoundError(absl::StrCat("journey is \"", name_, "\"; it was deleted"))
+  return deleted_ ? absl::NotFoundError(absl::StrCat("journey: \"", name_, "\" was deleted"))
                   : absl::OkStatus();
 }
 
@@ -66,14 +67,14 @@ absl::Status LiveJourney::CheckWritable() const {
   HOMING_RETURN_IF_ERROR(CheckPresent());
   if (record_.state == storage::JourneyState::kFinished) {
     return WithReason(absl::FailedPreconditionError(absl::StrCat(
-                          "journey is \"", name_, "\"; it is finished and takes no observations")),
+                          "journey: \"", name_, "\" is finished and takes no observations")),
                       {"JOURNEY_FINISHED", {}});
   }
   return absl::OkStatus();
 }
 
-void LiveJourney::AwaitQuiet(std::unique_lock<std::mutex>* lock) {
-  quiet_.wait(*lock, [this] { return appends_under_way_ == 0; });
+void LiveJourney::AwaitQuiet() {
+  while (appends_under_way_ > 0) quiet_.Wait(mutex_);
 }
 
 absl::StatusOr<std::uint64_t> LiveJourney::Claim(const std::string& writer_id, TimePoint now,
@@ -81,11 +82,11 @@ absl::StatusOr<std::uint64_t> LiveJourney::Claim(const std::string& writer_id, T
   WriterLease::Evict previous;
   std::uint64_t claim = 0;
   {
-    std::unique_lock lock(mutex_);
+    const MutexLock lock(mutex_);
     HOMING_RETURN_IF_ERROR(CheckWritable());
     HOMING_RETURN_IF_ERROR(lease_.CheckFree(writer_id, now));
     claim = lease_.Take(writer_id, now, std::move(evict), &previous);
-    AwaitQuiet(&lock);
+    AwaitQuiet();
     record_.writer_id = writer_id;
   }
   if (previous) {
@@ -95,13 +96,13 @@ absl::StatusOr<std::uint64_t> LiveJourney::Claim(const std::string& writer_id, T
 }
 
 absl::Status LiveJourney::CheckClaim(const std::string& writer_id, TimePoint now) const {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   HOMING_RETURN_IF_ERROR(CheckWritable());
   return lease_.CheckFree(writer_id, now);
 }
 
 absl::Status LiveJourney::Renew(std::uint64_t claim, TimePoint now) {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   if (!lease_.Holds(claim)) {
     return ClaimOver(name_);
   }
@@ -110,7 +111,7 @@ absl::Status LiveJourney::Renew(std::uint64_t claim, TimePoint now) {
 }
 
 absl::Status LiveJourney::BeginAppend(std::uint64_t claim) {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   if (!lease_.Holds(claim)) {
     return ClaimOver(name_);
   }
@@ -121,12 +122,12 @@ absl::Status LiveJourney::BeginAppend(std::uint64_t claim) {
 void LiveJourney::EndAppend(const storage::JourneyAppend& append, const absl::Status& status) {
   std::optional<JourneySettings> indexed;
   {
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     if (status.ok()) {
       record_.next_sequence = append.sequence + 1;
       record_.resend_from = append.resend_from;
       record_.input = append.input;
-      // As on the disk: an observation without a step has no say.
+      // As in the store: an observation without a step does not change the times.
       if (append.step && append.capture_time_ns != 0) {
         record_.start_time_ns =
             record_.start_time_ns == 0 ? append.capture_time_ns : record_.start_time_ns;
@@ -147,23 +148,23 @@ void LiveJourney::EndAppend(const storage::JourneyAppend& append, const absl::St
     index_->Appended(name_, *indexed, *append.step);
   }
   {
-    // Last: who deletes the journey waits for it, and tells the index then.
-    const std::lock_guard lock(mutex_);
+    // Last, because Delete waits for it and then reports the deletion to the index.
+    const MutexLock lock(mutex_);
     --appends_under_way_;
   }
-  quiet_.notify_all();
-  if (map_mutex_.try_lock()) {
+  quiet_.NotifyAll();
+  if (map_mutex_.TryLock()) {
     AbsorbSteps();
-    map_mutex_.unlock();
+    map_mutex_.Unlock();
   }
 }
 
 void LiveJourney::EvictWriter(const absl::Status& reason) {
   WriterLease::Evict evict;
   {
-    std::unique_lock lock(mutex_);
+    const MutexLock lock(mutex_);
     evict = lease_.Release();
-    AwaitQuiet(&lock);
+    AwaitQuiet();
   }
   if (evict) {
     evict(reason);
@@ -171,24 +172,39 @@ void LiveJourney::EvictWriter(const absl::Status& reason) {
 }
 
 absl::Status LiveJourney::CheckWriter(const std::string& writer_id, TimePoint now) const {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   return lease_.CheckFree(writer_id, now);
 }
 
+absl::Status LiveJourney::CheckNoStream(TimePoint now) const {
+  const MutexLock lock(mutex_);
+  return lease_.CheckNoStream(now);
+}
+
+void LiveJourney::EndStream(std::uint64_t claim) {
+  const MutexLock lock(mutex_);
+  lease_.EndStream(claim);
+}
+
+void LiveJourney::SetReaders(const std::vector<std::string>& readers) {
+  const MutexLock lock(mutex_);
+  record_.readers = readers;
+}
+
 void LiveJourney::MarkFinished() {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   record_.state = storage::JourneyState::kFinished;
 }
 
 void LiveJourney::MarkDeleted() {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   deleted_ = true;
 }
 
 void LiveJourney::AbsorbSteps() {
   std::vector<JourneyStep> steps;
   {
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     if (map_state_ != MapState::kLoaded) return;
     steps.swap(unabsorbed_);
     if (std::exchange(settings_changed_, false)) {
@@ -196,24 +212,24 @@ void LiveJourney::AbsorbSteps() {
     }
   }
   for (const JourneyStep& step : steps) {
-    // What was loaded may hold it already.
+    // The loaded map may already hold the step.
     if (step.step < map_.step_count()) continue;
-    // The disk took the same step under the same rules: it cannot fail here.
+    // The store accepted the same step by the same rules: Append cannot fail here.
     map_.Append(step).IgnoreError();
   }
 }
 
 absl::Status LiveJourney::LoadMap() {
-  const std::lock_guard load_lock(load_mutex_);
+  const MutexLock load_lock(load_mutex_);
   {
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     if (map_state_ == MapState::kLoaded) return absl::OkStatus();
     map_state_ = MapState::kLoading;
   }
   absl::StatusOr<JourneyMap> map = store_->LoadMap(name_);
-  const std::lock_guard map_lock(map_mutex_);
-  const std::lock_guard lock(mutex_);
-  // Another of the same name may have been made since, and its map been read.
+  const MutexLock map_lock(map_mutex_);
+  const MutexLock lock(mutex_);
+  // A new journey of the same name may have been created and its map loaded instead.
   absl::Status status = deleted_ ? CheckPresent() : map.status();
   if (!status.ok()) {
     map_state_ = MapState::kNone;
@@ -226,31 +242,31 @@ absl::Status LiveJourney::LoadMap() {
 }
 
 bool LiveJourney::has_map() const {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   return map_state_ == MapState::kLoaded;
 }
 
 void LiveJourney::LockMap() {
   bool behind = false;
   {
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     behind = !unabsorbed_.empty() || settings_changed_;
   }
   if (behind) {
-    map_mutex_.lock();
+    map_mutex_.Lock();
     AbsorbSteps();
-    map_mutex_.unlock();
+    map_mutex_.Unlock();
   }
-  map_mutex_.lock_shared();
+  map_mutex_.LockShared();
 }
 
-MapsLock::MapsLock(const LiveJourneys& journeys) : journeys_(journeys) {
+MapsLock::MapsLock(const LiveJourneys& journeys) HOMING_UNCHECKED_LOCKS : journeys_(journeys) {
   for (const std::shared_ptr<LiveJourney>& journey : journeys_) {
     journey->LockMap();
   }
 }
 
-MapsLock::~MapsLock() {
+MapsLock::~MapsLock() HOMING_UNCHECKED_LOCKS {
   for (const std::shared_ptr<LiveJourney>& journey : journeys_) {
     journey->UnlockMap();
   }

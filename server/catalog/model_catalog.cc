@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "absl/strings/str_cat.h"
+#include "homing/base/field_error.h"
 #include "homing/base/status_macros.h"
 #include "server/base/resource_name.h"
 
@@ -27,7 +28,7 @@ absl::StatusOr<TrainedModel> ModelCatalog::Train(const std::string& model_id,
   trained.stored.training = options;
   trained.stored.create_time_ns = now_ns;
   if (trained.stored.name == kDefaultModelName) {
-    return absl::InvalidArgumentError("model_id is \"default\"; that model is built in");
+    return FieldError("model_id", "\"default\" is built in; choose another id");
   }
   HOMING_ASSIGN_OR_RETURN(TrainingResult result, TrainDeviationModel(options));
   trained.stored.model = result.model;
@@ -37,7 +38,7 @@ absl::StatusOr<TrainedModel> ModelCatalog::Train(const std::string& model_id,
     HOMING_ASSIGN_OR_RETURN(storage::StoredModel present, store_->GetModel(trained.stored.name));
     if (present.model != trained.stored.model) {
       return absl::AlreadyExistsError(
-          absl::StrCat("model_id is \"", model_id, "\"; it exists, and other settings gave it"));
+          absl::StrCat("model_id: \"", model_id, "\" exists with other settings"));
     }
     trained.stored = std::move(present);
     return trained;

@@ -1,4 +1,4 @@
-// Deviation models by name: the built-in one and those that were trained. Source: own design.
+// Deviation models by name: the built-in one and trained ones.
 #ifndef SERVER_CATALOG_MODEL_CATALOG_H_
 #define SERVER_CATALOG_MODEL_CATALOG_H_
 
@@ -25,8 +25,8 @@ class ModelCatalog {
   // `store` must outlive the catalog.
   explicit ModelCatalog(storage::JourneyStore* store) : store_(store) {}
 
-  // Trains and stores; training again with the same settings gives the stored one. `now_ns` is the
-  // server's clock. INVALID_ARGUMENT; ALREADY_EXISTS: other settings, or "default".
+  // Trains and stores a model; the same settings return the stored one. `now_ns` is the server's
+  // clock. INVALID_ARGUMENT; ALREADY_EXISTS: it has other settings, or is "default".
   absl::StatusOr<TrainedModel> Train(const std::string& model_id, const TrainingOptions& options,
                                      std::int64_t now_ns);
   // INVALID_ARGUMENT, NOT_FOUND.

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "absl/strings/str_cat.h"
+#include "homing/base/field_error.h"
 #include "homing/base/status_macros.h"
 #include "server/access/identity.h"
 #include "server/access/private_file.h"
@@ -21,11 +22,11 @@ absl::Status RunCerts(const CertificateOrder& order) {
 
 absl::Status RunToken(const TokenOrder& order, const std::string& tokens) {
   if (tokens.empty()) {
-    return absl::InvalidArgumentError("tokens is missing; it names the file that gets the hash");
+    return FieldError("tokens", "must name the file that gets the hash");
   }
   HOMING_RETURN_IF_ERROR(CheckIdentity(order.identity, "identity"));
   HOMING_ASSIGN_OR_RETURN(const std::string token, MakeToken());
-  // The robot's file first: a token that nobody has is no harm.
+  // The robot's file first: a token that the server does not know is harmless.
   HOMING_RETURN_IF_ERROR(WritePrivateFile(order.out, token + "\n"));
   HOMING_RETURN_IF_ERROR(AddToken(tokens, order.identity, HashToken(token)));
   std::cout << order.out << '\n' << tokens << '\n';

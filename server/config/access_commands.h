@@ -1,4 +1,4 @@
-// `homing-server certs` and `homing-server token`. Source: own design.
+// `homing-server certs` and `homing-server token`.
 #ifndef SERVER_CONFIG_ACCESS_COMMANDS_H_
 #define SERVER_CONFIG_ACCESS_COMMANDS_H_
 
@@ -9,10 +9,10 @@
 
 namespace homing::server {
 
-// Prints the paths of what it wrote. INVALID_ARGUMENT.
+// Prints the paths that it wrote. INVALID_ARGUMENT.
 absl::Status RunCerts(const CertificateOrder& order);
 
-// Adds to the file `tokens`; prints nothing of the token. INVALID_ARGUMENT.
+// Adds a hash to the file `tokens`; never prints the token. INVALID_ARGUMENT.
 absl::Status RunToken(const TokenOrder& order, const std::string& tokens);
 
 }  // namespace homing::server

@@ -1,46 +1,77 @@
 #include "server/config/health_check.h"
 
 #include <grpcpp/grpcpp.h>
+#include <openssl/pem.h>
+#include <openssl/x509v3.h>
 
 #include <chrono>
-#include <fstream>
+#include <cstdlib>
 #include <memory>
-#include <sstream>
 
 #include "absl/status/statusor.h"
-#include "absl/strings/str_cat.h"
 #include "grpc/health/v1/health.grpc.pb.h"
+#include "homing/base/host_port.h"
 #include "homing/base/status_macros.h"
+#include "server/access/flag_file.h"
 
 namespace homing::server {
 namespace {
 
 constexpr std::chrono::seconds kTimeout{3};
 
-absl::StatusOr<std::string> ReadPem(const char* flag, const std::string& path) {
-  const std::ifstream file(path, std::ios::binary);
-  std::ostringstream text;
-  text << file.rdbuf();
-  if (!path.empty() && !file) {
-    return absl::InvalidArgumentError(
-        absl::StrCat(flag, " is \"", path, "\"; the file cannot be read"));
+absl::StatusOr<std::string> ReadPem(const std::string& flag, const std::string& path) {
+  return path.empty() ? absl::StatusOr<std::string>("") : ReadFlagFile(flag, path);
+}
+
+// A name that the certificate is made out to; empty: none.
+std::string NameIn(const std::string& pem) {
+  const std::unique_ptr<BIO, int (*)(BIO*)> bytes(
+      BIO_new_mem_buf(pem.data(), static_cast<int>(pem.size())), &BIO_free);
+  const std::unique_ptr<X509, void (*)(X509*)> certificate(
+      PEM_read_bio_X509(bytes.get(), nullptr, nullptr, nullptr), &X509_free);
+  if (certificate == nullptr) return "";
+  const std::unique_ptr<GENERAL_NAMES, void (*)(GENERAL_NAMES*)> names(
+      static_cast<GENERAL_NAMES*>(
+          X509_get_ext_d2i(certificate.get(), NID_subject_alt_name, nullptr, nullptr)),
+      &GENERAL_NAMES_free);
+  for (int i = 0; names != nullptr && i < sk_GENERAL_NAME_num(names.get()); ++i) {
+    const GENERAL_NAME* name = sk_GENERAL_NAME_value(names.get(), i);
+    if (name->type != GEN_DNS) continue;
+    return {reinterpret_cast<const char*>(ASN1_STRING_get0_data(name->d.dNSName)),
+            static_cast<std::size_t>(ASN1_STRING_length(name->d.dNSName))};
   }
-  return text.str();
+  return "";
+}
+
+absl::StatusOr<std::shared_ptr<grpc::ChannelCredentials>> MakeCredentials(
+    const HealthCheckFiles& files, grpc::ChannelArguments* arguments) {
+  if (files.ca.empty() && files.trusted.empty()) return grpc::InsecureChannelCredentials();
+  grpc::SslCredentialsOptions tls;
+  HOMING_ASSIGN_OR_RETURN(tls.pem_root_certs,
+                          ReadPem("ca", files.ca.empty() ? files.trusted : files.ca));
+  HOMING_ASSIGN_OR_RETURN(tls.pem_cert_chain, ReadPem("cert", files.cert));
+  HOMING_ASSIGN_OR_RETURN(tls.pem_private_key, ReadPem("key", files.key));
+  if (files.ca.empty()) {
+    if (const std::string name = NameIn(tls.pem_root_certs); !name.empty()) {
+      arguments->SetSslTargetNameOverride(name);
+    }
+  }
+  return grpc::SslCredentials(tls);
 }
 
 }  // namespace
 
-absl::Status CheckHealth(const std::string& address, const std::string& ca_file,
-                         const std::string& cert_file, const std::string& key_file) {
-  std::shared_ptr<grpc::ChannelCredentials> credentials = grpc::InsecureChannelCredentials();
-  if (!ca_file.empty()) {
-    grpc::SslCredentialsOptions tls;
-    HOMING_ASSIGN_OR_RETURN(tls.pem_root_certs, ReadPem("ca", ca_file));
-    HOMING_ASSIGN_OR_RETURN(tls.pem_cert_chain, ReadPem("cert", cert_file));
-    HOMING_ASSIGN_OR_RETURN(tls.pem_private_key, ReadPem("key", key_file));
-    credentials = grpc::SslCredentials(tls);
+absl::Status CheckHealth(const std::string& address, const HealthCheckFiles& files) {
+  const bool is_socket_file = address.rfind("unix:", 0) == 0;
+  if (!is_socket_file) {
+    HOMING_RETURN_IF_ERROR(ParseHostPort("server", address, 1).status());
   }
-  const auto stub = grpc::health::v1::Health::NewStub(grpc::CreateChannel(address, credentials));
+  ::setenv("GRPC_DNS_RESOLVER", "native", /*overwrite=*/0);
+  grpc::ChannelArguments arguments;
+  arguments.SetInt(GRPC_ARG_ENABLE_HTTP_PROXY, 0);
+  HOMING_ASSIGN_OR_RETURN(const auto credentials, MakeCredentials(files, &arguments));
+  const auto stub =
+      grpc::health::v1::Health::NewStub(grpc::CreateCustomChannel(address, credentials, arguments));
   grpc::ClientContext context;
   context.set_deadline(std::chrono::system_clock::now() + kTimeout);
   grpc::health::v1::HealthCheckResponse response;

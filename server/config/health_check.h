@@ -1,4 +1,4 @@
-// Asks a server for its health. Source: own design, over the standard gRPC health service.
+// Asks a server for its health, by the standard gRPC health service.
 #ifndef SERVER_CONFIG_HEALTH_CHECK_H_
 #define SERVER_CONFIG_HEALTH_CHECK_H_
 
@@ -8,10 +8,20 @@
 
 namespace homing::server {
 
-// OK: it serves. `ca_file`: CA of its certificate, PEM; empty: no TLS. UNAVAILABLE, and what
-// reading the file says.
-absl::Status CheckHealth(const std::string& address, const std::string& ca_file,
-                         const std::string& cert_file = "", const std::string& key_file = "");
+// PEM files; all empty: no TLS.
+struct HealthCheckFiles {
+  // CA of the server's certificate.
+  std::string ca;
+  // Or the certificate itself, for any host.
+  std::string trusted;
+  // To show.
+  std::string cert;
+  std::string key;
+};
+
+// OK: the server is serving. Never through a proxy. UNAVAILABLE: it does not serve or answer.
+// INVALID_ARGUMENT: the address, or a file that cannot be read.
+absl::Status CheckHealth(const std::string& address, const HealthCheckFiles& files = {});
 
 }  // namespace homing::server
 

@@ -1,5 +1,5 @@
-// Options of homing-server: command line before environment (HOMING_*) before TOML file.
-// Source: own design.
+// Options of homing-server. The command line comes before the environment (HOMING_*), which comes
+// before the TOML file. Flags and ranges are in option_table.cc.
 #ifndef SERVER_CONFIG_SERVER_OPTIONS_H_
 #define SERVER_CONFIG_SERVER_OPTIONS_H_
 
@@ -18,35 +18,34 @@ struct ServerOptions {
   std::string listen = "127.0.0.1:50551";
   // "sqlite:PATH".
   std::string database = "sqlite:homing.db";
-  // PEM files; both or neither. With a client CA, clients must show a certificate of it.
+  // PEM files; both or neither. With a client CA, clients must show a certificate signed by it.
   std::string tls_cert;
   std::string tls_key;
   std::string tls_client_ca;
   // Folder of revocation lists (PEM) of the client CA and its intermediates.
   std::string tls_crl_dir;
   // Files of bearer tokens (server/access/token_book.h) and of roles (role_book.h). With either, or
-  // with a client CA, every caller must say who it is.
+  // with a client CA, every caller needs credentials.
   std::string tokens;
   std::string roles;
-  // How often these files are read again, s. [1, 3600].
+  // Interval at which these files are read again, s.
   int reload_s = 5;
-  // Where GET /metrics is answered, host and port; "off" or empty: nowhere.
+  // Address of GET /metrics, host and port; "off" or empty: none.
   std::string http = "off";
-  // Nobody asked for http: go on without it if the address cannot be had.
+  // http has its default: start without it if the address is not available.
   bool http_optional = false;
   Limits limits;
-  // Largest message taken, bytes. [64 KiB, 256 MiB].
+  // Largest message accepted, bytes.
   std::int64_t max_message = std::int64_t{16} << 20;
-  // Largest frame, pixels. [256, 268'435'456].
+  // Largest frame, pixels.
   std::int64_t max_pixels = std::int64_t{16} << 20;
-  // Most flow vectors of one camera at one instant. [1, 10'000'000].
+  // Most flow vectors of one camera at one instant.
   int max_vectors = 100'000;
-  // Threads that compute; 0: one a core. [0, 1024].
+  // Threads that compute; 0: one a core.
   int workers = 0;
-  // How long streams may take to end when the server is told to stop, ms. [0, 600'000].
+  // Time for streams to end at shutdown, ms.
   int drain_ms = 5000;
-  // Maps in memory that no one uses are let go of beyond this, bytes; 0: no limit.
-  // [0, 1 PiB].
+  // Map-cache limit, bytes (CatalogOptions::cache_bytes).
   std::int64_t map_cache = std::int64_t{1} << 30;
   // Keep an index of all journeys' landmarks: 24 to 32 bytes a fingerprint.
   bool all_journeys_index = false;
@@ -62,35 +61,34 @@ inline bool HasHttp(const ServerOptions& options) {
   return !options.http.empty() && options.http != "off";
 }
 
-// INVALID_ARGUMENT naming field, value and limit; off loopback without TLS is one.
+// INVALID_ARGUMENT naming the field and the rule that it breaks.
 absl::Status Validate(const ServerOptions& options);
 
-// As the TOML file would have it, a line a key.
-std::string ToToml(const ServerOptions& options);
-
-// A token to be made.
+// Order for a new token.
 struct TokenOrder {
   std::string identity;
   // File for the token itself.
   std::string out;
 };
 
-// What the command line asks for.
+// The parsed command line.
 struct ServerCommand {
   enum class Action { kServe, kCheckConfig, kHealthCheck, kDoctor, kBackup, kCerts, kToken, kExit };
   Action action = Action::kServe;
   ServerOptions options;
-  // kHealthCheck: whom to ask, and the CA of its certificate (empty: no TLS).
+  // kHealthCheck: the address, and the CA of its certificate (empty: no TLS).
   std::string health_server;
   std::string health_ca;
+  // Instead of a CA: the very certificate of the server.
+  std::string health_trusted;
   std::string health_cert;
   std::string health_key;
-  // kDoctor, kBackup: the database file, and the new file to write (kDoctor: empty, nothing).
+  // kDoctor, kBackup: the database file, and the new file to write (kDoctor: empty for none).
   std::string store_path;
   std::string target_path;
   CertificateOrder certificates;
   TokenOrder token;
-  // kExit: what main returns (help and version were printed, or an error told).
+  // kExit: the exit code of main, after help, version or an error was printed.
   int exit_code = 0;
 };
 

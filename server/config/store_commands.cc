@@ -6,23 +6,21 @@
 #include <vector>
 
 #include "storage/backup.h"
+#include "storage/database_url.h"
 #include "storage/doctor.h"
 
 namespace homing::server {
 namespace {
 
-constexpr char kScheme[] = "sqlite:";
+// The commands take a path, too.
+std::string PathOf(const std::string& url) { return storage::ParseDatabaseUrl(url).value_or(url); }
 
-std::string PathOf(const std::string& url) {
-  return url.rfind(kScheme, 0) == 0 ? url.substr(sizeof(kScheme) - 1) : url;
-}
-
-int TellFailure(const absl::Status& status) {
+int ReportFailure(const absl::Status& status) {
   std::cerr << "homing-server: " << std::string(status.message()) << '\n';
   return 1;
 }
 
-void TellFinding(const std::string& kind, const storage::Finding& finding) {
+void ReportFinding(const std::string& kind, const storage::Finding& finding) {
   std::cout << kind << ' ' << finding.name << ": ";
   if (finding.status.ok()) {
     std::cout << "whole";
@@ -32,13 +30,13 @@ void TellFinding(const std::string& kind, const storage::Finding& finding) {
   std::cout << '\n';
 }
 
-void TellDiagnosis(const std::string& path, const storage::Diagnosis& diagnosis) {
+void ReportDiagnosis(const std::string& path, const storage::Diagnosis& diagnosis) {
   std::cout << path << ": schema version " << diagnosis.schema_version << '\n';
   for (const std::string& problem : diagnosis.problems) {
     std::cout << "problem: " << problem << '\n';
   }
-  for (const storage::Finding& journey : diagnosis.journeys) TellFinding("journey", journey);
-  for (const storage::Finding& model : diagnosis.models) TellFinding("model", model);
+  for (const storage::Finding& journey : diagnosis.journeys) ReportFinding("journey", journey);
+  for (const storage::Finding& model : diagnosis.models) ReportFinding("model", model);
   std::cout << diagnosis.journeys.size() << " journeys, " << CountDamaged(diagnosis.journeys)
             << " damaged; " << diagnosis.models.size() << " models, "
             << CountDamaged(diagnosis.models) << " damaged; "
@@ -69,15 +67,15 @@ bool StoreCommands::Choose(ServerCommand* command) const {
 int RunDoctor(const std::string& path, const std::string& salvage_to) {
   const auto diagnosis =
       salvage_to.empty() ? storage::Examine(path) : storage::Salvage(path, salvage_to);
-  if (!diagnosis.ok()) return TellFailure(diagnosis.status());
-  TellDiagnosis(path, *diagnosis);
+  if (!diagnosis.ok()) return ReportFailure(diagnosis.status());
+  ReportDiagnosis(path, *diagnosis);
   if (!salvage_to.empty()) std::cout << "what is whole is in " << salvage_to << '\n';
   return IsWhole(*diagnosis) ? 0 : 1;
 }
 
 int RunBackup(const std::string& path, const std::string& to) {
   const absl::Status status = storage::BackUp(path, to);
-  if (!status.ok()) return TellFailure(status);
+  if (!status.ok()) return ReportFailure(status);
   std::error_code ignored;
   std::cout << "backed up " << path << " to " << to << ", "
             << std::filesystem::file_size(to, ignored) << " bytes\n";

@@ -1,4 +1,4 @@
-// The subcommands that work on a database file: doctor and backup. Source: own design.
+// The subcommands that work on a database file: doctor and backup.
 #ifndef SERVER_CONFIG_STORE_COMMANDS_H_
 #define SERVER_CONFIG_STORE_COMMANDS_H_
 
@@ -9,12 +9,12 @@
 
 namespace homing::server {
 
-// Adds them to the command line.
+// Adds the subcommands to the command line.
 class StoreCommands {
  public:
-  // Both outlive the object.
+  // Both must outlive the object.
   StoreCommands(CLI::App* app, ServerCommand* command);
-  // After parsing: whether one of them was given, which `command` then asks for.
+  // After parsing: sets `command` and returns true if one of the subcommands was given.
   bool Choose(ServerCommand* command) const;
 
  private:
@@ -22,8 +22,8 @@ class StoreCommands {
   CLI::App* backup_;
 };
 
-// Each tells on stdout what it found or did, on stderr what failed, and returns the exit code: 0
-// whole or done; 1 damaged or failed.
+// Each prints findings on stdout and failures on stderr. Returns the exit code: 0 if the file is
+// whole or the work is done, 1 if it is damaged or failed.
 int RunDoctor(const std::string& path, const std::string& salvage_to);
 int RunBackup(const std::string& path, const std::string& to);
 

@@ -1,5 +1,5 @@
-// What the server counts, for Prometheus. Names: gRFC A66 for calls, Prometheus' rules for the
-// rest; no label takes values that a client chooses. Source: own design.
+// The server's metrics for Prometheus. Names follow gRFC A66 for calls and Prometheus' rules for
+// the rest. No client can choose the value of a label.
 #ifndef SERVER_METRICS_METRICS_H_
 #define SERVER_METRICS_METRICS_H_
 
@@ -23,7 +23,7 @@ class Metrics {
   Metrics& operator=(const Metrics&) = delete;
 
   void CallStarted(Rpc rpc);
-  // Also counts the error by its reason: every limit has one.
+  // Also counts the error by its reason; each limit has its own.
   void CallEnded(Rpc rpc, const absl::Status& status, double seconds);
   // One observation of a stream.
   void ObservationReceived(Rpc rpc);
@@ -31,9 +31,9 @@ class Metrics {
   // One transaction of recorded steps.
   void Committed(int appends, bool ok, double seconds);
 
-  // A value asked for at each scrape, until RemoveGauges.
+  // A gauge whose value is read at each scrape, until RemoveGauges.
   void AddGauge(const std::string& name, const std::string& help, std::function<double()> value);
-  // A limit as set, "homing_limit{limit=NAME}".
+  // A configured limit, "homing_limit{limit=NAME}".
   void SetLimit(const std::string& name, double value);
   void RemoveGauges();
 

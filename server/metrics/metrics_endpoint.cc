@@ -11,14 +11,18 @@
 namespace homing::server {
 namespace {
 
-// Scrapes come one at a time; a second thread answers while the first is slow.
-constexpr std::size_t kThreads = 2;
+// Scrapes come one at a time; the others answer while clients are slow. One that takes longer than
+// the limit, ms, is cut off.
+constexpr char kThreads[] = "8";
+constexpr char kTimeoutMs[] = "2000";
 
 }  // namespace
 
 struct MetricsEndpoint::State {
   State(const std::string& listen, std::shared_ptr<Metrics::State> shown)
-      : metrics(std::move(shown)), exposer(listen, kThreads) {
+      : metrics(std::move(shown)),
+        exposer({"listening_ports", listen, "num_threads", kThreads, "request_timeout_ms",
+                 kTimeoutMs, "enable_keep_alive", "no"}) {
     exposer.RegisterCollectable(metrics->registry);
     exposer.RegisterCollectable(metrics->gauges);
     address =
@@ -42,9 +46,9 @@ absl::StatusOr<std::unique_ptr<MetricsEndpoint>> MetricsEndpoint::Start(const st
     return std::unique_ptr<MetricsEndpoint>(
         new MetricsEndpoint(std::make_unique<State>(address, metrics.state())));
   } catch (const std::exception&) {
-    return absl::UnavailableError(absl::StrCat("http is \"", address,
-                                               "\"; the address is in use or is not this "
-                                               "machine's"));
+    return absl::UnavailableError(absl::StrCat("http: \"", address,
+                                               "\" is in use or is not an address of this "
+                                               "machine"));
   }
 }
 

@@ -1,4 +1,4 @@
-// GET /metrics over HTTP. Source: own design.
+// GET /metrics over HTTP.
 #ifndef SERVER_METRICS_METRICS_ENDPOINT_H_
 #define SERVER_METRICS_METRICS_ENDPOINT_H_
 
@@ -12,7 +12,7 @@ namespace homing::server {
 
 class MetricsEndpoint {
  public:
-  // `address` is host:port; port 0 picks one. UNAVAILABLE: it cannot be listened on.
+  // `address` is host:port; port 0 picks one. UNAVAILABLE: it is in use or not available.
   static absl::StatusOr<std::unique_ptr<MetricsEndpoint>> Start(const std::string& address,
                                                                 const Metrics& metrics);
   ~MetricsEndpoint();

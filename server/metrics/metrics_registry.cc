@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "homing/base/mutex.h"
+
 namespace homing::server {
 namespace {
 
@@ -21,17 +23,17 @@ Family<prometheus::Histogram>& Histograms(prometheus::Registry* registry, const 
 
 void LiveGauges::Add(const std::string& name, const std::string& help,
                      std::function<double()> value) {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   entries_.push_back({name, help, std::move(value)});
 }
 
 void LiveGauges::Clear() {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   entries_.clear();
 }
 
 std::vector<prometheus::MetricFamily> LiveGauges::Collect() const {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   std::vector<prometheus::MetricFamily> families;
   for (const Entry& entry : entries_) {
     prometheus::ClientMetric metric;

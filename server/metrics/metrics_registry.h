@@ -1,4 +1,4 @@
-// The families behind Metrics. Source: own design.
+// The metric families behind Metrics.
 #ifndef SERVER_METRICS_METRICS_REGISTRY_H_
 #define SERVER_METRICS_METRICS_REGISTRY_H_
 
@@ -13,10 +13,10 @@
 #include <cstddef>
 #include <functional>
 #include <memory>
-#include <mutex>
 #include <string>
 #include <vector>
 
+#include "homing/base/mutex.h"
 #include "server/access/rpc.h"
 #include "server/metrics/metrics.h"
 
@@ -28,11 +28,11 @@ inline const prometheus::Histogram::BucketBoundaries kCallSeconds = {
 inline const prometheus::Histogram::BucketBoundaries kWorkSeconds = {
     0.0003, 0.001, 0.003, 0.01, 0.03, 0.1, 0.3, 1, 3, 10};
 
-// Gauges whose value is asked for at each scrape. Thread-safe.
+// Gauges whose values are read at each scrape. Thread-safe.
 class LiveGauges final : public prometheus::Collectable {
  public:
   void Add(const std::string& name, const std::string& help, std::function<double()> value);
-  // Returns when no value is being asked for.
+  // Returns when no value is being read.
   void Clear();
   std::vector<prometheus::MetricFamily> Collect() const override;
 
@@ -42,12 +42,12 @@ class LiveGauges final : public prometheus::Collectable {
     std::string help;
     std::function<double()> read;
   };
-  mutable std::mutex mutex_;
-  std::vector<Entry> entries_;
+  mutable Mutex mutex_;
+  std::vector<Entry> entries_ HOMING_GUARDED_BY(mutex_);
 };
 
-// Counters of one family that are wanted with every observation: each is looked up by its labels
-// once. Thread-safe.
+// Counters of one family that every observation needs: each is looked up by its labels once.
+// Thread-safe.
 template <std::size_t count>
 class KnownCounters {
  public:

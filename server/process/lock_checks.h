@@ -1,4 +1,4 @@
-// What Debian's abseil checks at each lock. Source: own design.
+// Turns off the lock checks of Debian's abseil.
 #ifndef SERVER_PROCESS_LOCK_CHECKS_H_
 #define SERVER_PROCESS_LOCK_CHECKS_H_
 
@@ -6,8 +6,8 @@
 
 namespace homing {
 
-// Debian builds abseil with assertions: each lock that gRPC takes then looks for cycles in a graph
-// of all locks, under one lock of the process. For main().
+// Debian builds abseil with assertions: each lock that gRPC takes then searches a graph of all
+// locks for cycles, under one lock of the process. Call it in main().
 inline void SkipLockChecks() {
   absl::SetMutexDeadlockDetectionMode(absl::OnDeadlockCycle::kIgnore);
 }

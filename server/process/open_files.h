@@ -1,4 +1,4 @@
-// How many files and connections this process may have open. Source: own design.
+// Raises the limit on open files and connections.
 #ifndef SERVER_PROCESS_OPEN_FILES_H_
 #define SERVER_PROCESS_OPEN_FILES_H_
 
@@ -6,8 +6,8 @@
 
 namespace homing {
 
-// Raises the limit as far as is allowed without privileges: what is usual, 1,024, is less than a
-// fleet. Best effort.
+// Raises it as far as possible without privileges: the default of 1,024 is too small for a fleet.
+// Best effort.
 inline void RaiseOpenFileLimit() {
   rlimit files{};
   if (getrlimit(RLIMIT_NOFILE, &files) == 0) {

@@ -1,4 +1,4 @@
-// A method that answers with a file in chunks. Source: own design.
+// A method whose answer is a file in chunks.
 #ifndef SERVER_RPC_CHUNK_STREAM_H_
 #define SERVER_RPC_CHUNK_STREAM_H_
 
@@ -19,14 +19,14 @@ namespace homing::server {
 
 inline constexpr std::size_t kChunkBytes = 256 << 10;
 
-// A caller known no more, or one that does not move, is cut off.
+// Ends a stream whose caller lost its access, or that is idle.
 inline void CutOffIfStale(const IncomingCall& call, StreamWatch* watch) {
   if (watch->IsIdle() || !call.CheckIdentity().ok()) {
     watch->BreakOff();
   }
 }
 
-// `Response` has a field `chunk`. Holds itself until gRPC has done with it.
+// `Response` has a field `chunk`. The stream owns itself until gRPC calls OnDone.
 template <typename Response>
 class ChunkStream : public grpc::ServerWriteReactor<Response>,
                     public OpenStream,
@@ -49,7 +49,7 @@ class ChunkStream : public grpc::ServerWriteReactor<Response>,
     }
   }
 
-  // A file under way is let finish; the server's own deadline ends it.
+  // A started file is completed; the server's deadline for draining ends it otherwise.
   void Drain() override {}
   void Tick() override { CutOffIfStale(call_, &watch_); }
 
@@ -58,7 +58,7 @@ class ChunkStream : public grpc::ServerWriteReactor<Response>,
     if (ok) {
       WriteNext();
     } else {
-      this->Finish(call_.Finish(absl::CancelledError("the client went away")));
+      this->Finish(call_.Finish(absl::CancelledError("the client disconnected")));
     }
   }
 
@@ -71,7 +71,7 @@ class ChunkStream : public grpc::ServerWriteReactor<Response>,
  protected:
   // Makes the file, in a worker.
   virtual absl::Status Prepare(ServiceCore* core, IncomingCall* call) = 0;
-  // What comes next, at most kChunkBytes; empty: that was all.
+  // The next chunk, at most kChunkBytes; empty: the end.
   virtual absl::StatusOr<std::string> NextChunk() = 0;
 
  private:

@@ -1,17 +1,26 @@
 #include "server/rpc/incoming_call.h"
 
+#include <google/protobuf/descriptor.h>
 #include <grpc/grpc_security_constants.h>
 #include <grpcpp/security/auth_context.h>
 
 #include <vector>
 
 #include "absl/strings/str_cat.h"
+#include "absl/strings/str_replace.h"
+#include "homing/base/mutex.h"
 #include "homing/base/status_macros.h"
 #include "server/base/error_reason.h"
 #include "server/rpc/status_conversion.h"
 
 namespace homing::server {
 namespace {
+
+const google::protobuf::Descriptor* RequestOf(Rpc rpc) {
+  const std::string method = absl::StrReplaceAll(std::string(TraitsOf(rpc).method), {{"/", "."}});
+  const auto* found = google::protobuf::DescriptorPool::generated_pool()->FindMethodByName(method);
+  return found == nullptr ? nullptr : found->input_type();
+}
 
 std::string TextOf(const grpc::string_ref& text) { return std::string(text.data(), text.size()); }
 
@@ -31,7 +40,7 @@ Credentials CredentialsOf(const grpc::ServerContextBase& context) {
   }
   if (const auto peer = context.auth_context()) {
     credentials.uris = Properties(*peer, GRPC_PEER_URI_PROPERTY_NAME);
-    // OpenSSL's chain is without the client's own certificate.
+    // OpenSSL's chain does not hold the client's own certificate.
     for (const char* part :
          {GRPC_X509_PEM_CERT_PROPERTY_NAME, GRPC_X509_PEM_CERT_CHAIN_PROPERTY_NAME}) {
       const auto pem = Properties(*peer, part);
@@ -41,7 +50,7 @@ Credentials CredentialsOf(const grpc::ServerContextBase& context) {
   return credentials;
 }
 
-// "robots/r" of what a request names; empty when it names none alone.
+// "robots/r" in the name of a resource; empty if it does not name one robot.
 std::string RobotNamed(const std::string& resource) {
   const std::size_t slash = resource.find('/');
   const std::string robot = resource.substr(0, resource.find('/', slash + 1));
@@ -62,11 +71,13 @@ IncomingCall::IncomingCall(ServiceCore* core, const grpc::ServerContextBase& con
     caller_ = *std::move(caller);
     robot_ = caller_.identity;
   }
+  static std::atomic<std::int64_t> calls = 0;
+  rate_key_ = robot_.empty() ? absl::StrCat("call/", ++calls) : robot_;
 }
 
 IncomingCall::~IncomingCall() {
   if (!finished_) {
-    Finish(absl::CancelledError("the client went away"));
+    Finish(absl::CancelledError("the client disconnected"));
   }
 }
 
@@ -85,7 +96,7 @@ absl::Status IncomingCall::CheckIdentity() const {
 
 absl::Status IncomingCall::EnterStream() {
   HOMING_RETURN_IF_ERROR(identified_);
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   is_stream_ = true;
   place_.Leave();
   HOMING_ASSIGN_OR_RETURN(place_, core_->places.Enter(robot_));
@@ -97,24 +108,31 @@ absl::Status IncomingCall::Authorize(const std::string& resource) {
   HOMING_RETURN_IF_ERROR(server::Authorize(caller_, rpc_, resource, &core_->catalog));
   if (core_->access->is_open()) {
     robot_ = RobotNamed(resource);
-    return is_stream_ ? EnterStream() : absl::OkStatus();
+    rate_key_ = robot_.empty() ? rate_key_ : robot_;
+    {
+      const MutexLock lock(mutex_);
+      if (!is_stream_) {
+        return absl::OkStatus();
+      }
+    }
+    return EnterStream();
   }
   return absl::OkStatus();
 }
 
 absl::Status IncomingCall::TakeObservation() {
   core_->metrics->ObservationReceived(rpc_);
-  return core_->rates.Take(robot_, core_->options.clock());
+  return core_->rates.Take(rate_key_, core_->options.clock());
 }
 
 grpc::Status IncomingCall::Finish(const absl::Status& status) {
   if (!finished_.exchange(true)) {
     const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin_;
     core_->metrics->CallEnded(rpc_, status, elapsed.count());
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     place_.Leave();
   }
-  return ToGrpcStatus(status);
+  return ToGrpcStatus(status, absl::IsInvalidArgument(status) ? RequestOf(rpc_) : nullptr);
 }
 
 }  // namespace homing::server

@@ -1,5 +1,4 @@
-// What every handler has of its call: who calls, what that caller may, what is counted.
-// Source: own design.
+// The part that all handlers share: the caller, its rights, limits and metrics.
 #ifndef SERVER_RPC_INCOMING_CALL_H_
 #define SERVER_RPC_INCOMING_CALL_H_
 
@@ -7,10 +6,10 @@
 #include <grpcpp/support/status.h>
 
 #include <atomic>
-#include <mutex>
 #include <string>
 
 #include "absl/status/status.h"
+#include "homing/base/mutex.h"
 #include "server/access/authorization.h"
 #include "server/admission/stream_limiter.h"
 #include "server/rpc/service_core.h"
@@ -19,28 +18,28 @@ namespace homing::server {
 
 class IncomingCall {
  public:
-  // On gRPC's thread, at the beginning of the method.
+  // Runs on gRPC's thread when the method begins.
   IncomingCall(ServiceCore* core, const grpc::ServerContextBase& context, Rpc rpc);
-  // A call that was not finished counts as CANCELLED.
+  // A call that did not finish counts as CANCELLED.
   ~IncomingCall();
   IncomingCall(const IncomingCall&) = delete;
   IncomingCall& operator=(const IncomingCall&) = delete;
 
-  // UNAUTHENTICATED: who calls is not known.
+  // UNAUTHENTICATED: the caller has no valid credentials.
   const absl::Status& identified() const { return identified_; }
-  // The same now: UNAUTHENTICATED also if a token, certificate or role was taken away since.
+  // Checks again: UNAUTHENTICATED also if the token, certificate or role was withdrawn since.
   absl::Status CheckIdentity() const;
-  // A stream takes its place among those open. RESOURCE_EXHAUSTED.
+  // Counts the call as an open stream. RESOURCE_EXHAUSTED.
   absl::Status EnterStream();
-  // May the caller do this to `resource`? As server::Authorize; in streams also the limit of
-  // streams of that robot. Not on gRPC's threads: it may look into the store.
+  // Checks that the caller may do this to `resource`, as server::Authorize; for a stream also the
+  // robot's limit of streams. Not for gRPC's threads: it may read the store.
   absl::Status Authorize(const std::string& resource);
-  // Which journeys of a pattern the caller gets.
+  // Selects the journeys of a pattern that the caller may use.
   JourneyFilter filter() const { return JourneysFor(caller_, rpc_); }
-  // One observation more. RESOURCE_EXHAUSTED: they come too fast.
+  // Counts one observation. RESOURCE_EXHAUSTED: the robot's rate is too high.
   absl::Status TakeObservation();
 
-  // The end of the call, counted; once.
+  // Ends and counts the call, once.
   grpc::Status Finish(const absl::Status& status);
 
  private:
@@ -50,13 +49,16 @@ class IncomingCall {
   Credentials credentials_;
   absl::Status identified_;
   Caller caller_;
-  // Whose limits apply: the caller's, or, when nobody is asked who they are, the robot named.
+  // The robot whose limits apply: the caller, or, without credentials, the robot named.
   std::string robot_;
+  // As robot_. A call that names no robot has a key that no other call has: robots that localise on
+  // a wildcard do not use up each other's rate.
+  std::string rate_key_;
   std::atomic<bool> finished_ = false;
 
-  std::mutex mutex_;
-  bool is_stream_ = false;
-  StreamLimiter::Place place_;
+  Mutex mutex_;
+  bool is_stream_ HOMING_GUARDED_BY(mutex_) = false;
+  StreamLimiter::Place place_ HOMING_GUARDED_BY(mutex_);
 };
 
 }  // namespace homing::server

@@ -5,6 +5,9 @@
 #include "absl/strings/escaping.h"
 #include "absl/strings/numbers.h"
 #include "absl/strings/str_cat.h"
+#include "homing/base/field_error.h"
+#include "homing/base/range_check.h"
+#include "homing/base/status_macros.h"
 
 namespace homing::server {
 namespace {
@@ -13,17 +16,13 @@ constexpr int kDefaultPageSize = 100;
 constexpr int kMaxPageSize = 1000;
 
 absl::Status BadToken() {
-  return absl::InvalidArgumentError(
-      "page_token is not one that this list gave; take next_page_token of the page before");
+  return FieldError("page_token", "must be next_page_token of the page before");
 }
 
 }  // namespace
 
 absl::StatusOr<int> DecodePageSize(int page_size) {
-  if (page_size < 0 || page_size > kMaxPageSize) {
-    return absl::InvalidArgumentError(
-        absl::StrCat("page_size is ", page_size, "; it must be in [0, ", kMaxPageSize, "]"));
-  }
+  HOMING_RETURN_IF_ERROR(CheckRange("page_size", page_size, 0, kMaxPageSize));
   return page_size == 0 ? kDefaultPageSize : page_size;
 }
 

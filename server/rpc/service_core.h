@@ -1,8 +1,9 @@
-// What all handlers work with. Source: own design.
+// The objects that all handlers share.
 #ifndef SERVER_RPC_SERVICE_CORE_H_
 #define SERVER_RPC_SERVICE_CORE_H_
 
 #include <atomic>
+#include <chrono>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -18,7 +19,6 @@
 #include "server/catalog/fleet_index.h"
 #include "server/catalog/journey_catalog.h"
 #include "server/catalog/model_catalog.h"
-#include "server/metrics/metered_store.h"
 #include "server/metrics/metrics.h"
 #include "server/rpc/stream_registry.h"
 #include "server/session/recording_session.h"
@@ -39,14 +39,24 @@ struct CoreOptions {
   std::function<TimePoint()> clock = [] { return std::chrono::steady_clock::now(); };
 };
 
-// Members end in the reverse order: first the workers, then the commits that wait, then the store.
+// Commits are counted and timed.
+inline storage::CommitQueueOptions QueueOptions(Metrics* metrics) {
+  storage::CommitQueueOptions options;
+  options.on_commit = [metrics](int stored, bool ok, std::chrono::duration<double> time) {
+    metrics->Committed(stored, ok, time.count());
+  };
+  return options;
+}
+
+// The order of destruction is the reverse: first the workers, then the commit queue, then the
+// store.
 struct ServiceCore {
   ServiceCore(std::unique_ptr<storage::JourneyStore> opened,
               std::shared_ptr<AccessControl> access_control, const CoreOptions& core_options)
       : options(core_options),
         metrics(std::make_unique<Metrics>()),
         access(std::move(access_control)),
-        store(Metered(std::move(opened), metrics.get())),
+        store(std::move(opened)),
         index(core_options.all_journeys_index ? std::make_unique<FleetIndex>(store.get())
                                               : nullptr),
         catalog(store.get(), core_options.catalog, index.get()),
@@ -54,7 +64,7 @@ struct ServiceCore {
         quota(&catalog, core_options.limits),
         rates(core_options.limits.max_robot_rate),
         places(core_options.limits),
-        queue(store.get()),
+        queue(store.get(), QueueOptions(metrics.get())),
         pool(core_options.workers) {}
 
   RecordingContext recording() { return {&catalog, &queue, options.decode}; }
@@ -64,7 +74,7 @@ struct ServiceCore {
   // Shared with the TLS handshake.
   const std::shared_ptr<AccessControl> access;
   const std::unique_ptr<storage::JourneyStore> store;
-  // Null: not asked for.
+  // Null without all_journeys_index.
   const std::unique_ptr<FleetIndex> index;
   JourneyCatalog catalog;
   ModelCatalog models;

@@ -10,7 +10,9 @@
 #include "absl/strings/numbers.h"
 #include "absl/strings/str_cat.h"
 #include "google/rpc/error_details.pb.h"
+#include "homing/base/field_error.h"
 #include "server/base/error_reason.h"
+#include "server/rpc/field_path.h"
 
 namespace homing::server {
 namespace {
@@ -22,7 +24,7 @@ bool IsHidden(absl::StatusCode code) {
   return code == absl::StatusCode::kInternal || code == absl::StatusCode::kUnknown;
 }
 
-// Cut, and safe in a header and in a Protobuf string.
+// Shortened, and safe in a header and in a Protobuf string.
 std::string MessageOf(const absl::Status& status) {
   if (IsHidden(status.code())) {
     spdlog::error("{}", std::string(status.ToString()));
@@ -58,30 +60,20 @@ void AddRetryInfo(const absl::Status& status, google::rpc::Status* details) {
   details->add_details()->PackFrom(retry);
 }
 
-// "left: frame.width is 0, must be ..." is about left.frame.width.
-std::string FieldOf(const std::string& message) {
-  std::string field;
-  std::size_t begin = 0;
-  std::size_t end = message.find(' ');
-  while (end != std::string::npos && end > begin && message[end - 1] == ':') {
-    field += message.substr(begin, end - 1 - begin) + ".";
-    begin = end + 1;
-    end = message.find(' ', begin);
-  }
-  return field + message.substr(begin, end == std::string::npos ? end : end - begin);
-}
-
-void AddBadRequest(const std::string& message, google::rpc::Status* details) {
+void AddBadRequest(const absl::Status& status, const google::protobuf::Descriptor* request,
+                   google::rpc::Status* details) {
   google::rpc::BadRequest bad;
   auto* violation = bad.add_field_violations();
-  violation->set_field(FieldOf(message));
-  violation->set_description(message);
+  std::string field = request == nullptr ? "" : FieldPath(details->message(), *request);
+  if (field.empty()) field = FieldOf(status).value_or("");
+  violation->set_field(field);
+  violation->set_description(details->message());
   details->add_details()->PackFrom(bad);
 }
 
 }  // namespace
 
-grpc::Status ToGrpcStatus(const absl::Status& status) {
+grpc::Status ToGrpcStatus(const absl::Status& status, const google::protobuf::Descriptor* request) {
   if (status.ok()) {
     return grpc::Status::OK;
   }
@@ -93,7 +85,7 @@ grpc::Status ToGrpcStatus(const absl::Status& status) {
     AddRetryInfo(status, &details);
   }
   if (absl::IsInvalidArgument(status)) {
-    AddBadRequest(details.message(), &details);
+    AddBadRequest(status, request, &details);
   }
   return {static_cast<grpc::StatusCode>(status.code()), details.message(),
           details.SerializeAsString()};
@@ -103,7 +95,7 @@ absl::Status Guarded(const std::function<absl::Status()>& call) {
   try {
     return call();
   } catch (const std::bad_alloc&) {
-    return absl::ResourceExhaustedError("memory is used up");
+    return absl::ResourceExhaustedError("out of memory");
   } catch (const std::exception& error) {
     return absl::InternalError(error.what());
   } catch (...) {
@@ -116,8 +108,7 @@ absl::Status DrainingError() {
 }
 
 absl::Status IdleError() {
-  return WithReason(absl::UnavailableError("nothing came on the stream for too long"),
-                    {"IDLE", {}});
+  return WithReason(absl::UnavailableError("the stream was idle for too long"), {"IDLE", {}});
 }
 
 absl::Status BusyError() {

@@ -1,7 +1,8 @@
-// The only place where absl::Status becomes grpc::Status. Source: own design.
+// The only place where absl::Status becomes grpc::Status.
 #ifndef SERVER_RPC_STATUS_CONVERSION_H_
 #define SERVER_RPC_STATUS_CONVERSION_H_
 
+#include <google/protobuf/descriptor.h>
 #include <grpcpp/support/status.h>
 
 #include <functional>
@@ -10,12 +11,14 @@
 
 namespace homing::server {
 
-// With google.rpc details: ErrorInfo always (domain "homing"), RetryInfo for RESOURCE_EXHAUSTED and
-// UNAVAILABLE, BadRequest for INVALID_ARGUMENT (its field is what the message begins with). What
-// INTERNAL and UNKNOWN say stays in the server's log. Messages are cut at 1000 bytes.
-grpc::Status ToGrpcStatus(const absl::Status& status);
+// Adds google.rpc details: ErrorInfo always (domain "homing"), RetryInfo for RESOURCE_EXHAUSTED and
+// UNAVAILABLE, BadRequest for INVALID_ARGUMENT (with the path in `request` of the field that the
+// message names, or the field of homing::FieldError). The messages of INTERNAL and UNKNOWN go to
+// the server's log only. Messages are cut at 1000 bytes.
+grpc::Status ToGrpcStatus(const absl::Status& status,
+                          const google::protobuf::Descriptor* request = nullptr);
 
-// What `call` returns; INTERNAL or RESOURCE_EXHAUSTED (memory) for an exception.
+// The result of `call`; INTERNAL or RESOURCE_EXHAUSTED (memory) if it throws.
 absl::Status Guarded(const std::function<absl::Status()>& call);
 
 absl::Status DrainingError();

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 
+#include "homing/base/mutex.h"
+
 namespace homing::server {
 
 bool StreamRegistry::Add(const std::shared_ptr<OpenStream>& stream) {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   if (!draining_) {
     streams_.insert(stream);
     size_ = streams_.size();
@@ -14,16 +16,16 @@ bool StreamRegistry::Add(const std::shared_ptr<OpenStream>& stream) {
 }
 
 void StreamRegistry::Remove(const std::shared_ptr<OpenStream>& stream) {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   streams_.erase(stream);
   size_ = streams_.size();
-  removed_.notify_all();
+  removed_.NotifyAll();
 }
 
 void StreamRegistry::Drain() {
   std::set<std::shared_ptr<OpenStream>> streams;
   {
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     draining_ = true;
     streams = streams_;
   }
@@ -35,7 +37,7 @@ void StreamRegistry::Drain() {
 void StreamRegistry::Tick() {
   std::set<std::shared_ptr<OpenStream>> streams;
   {
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     streams = streams_;
   }
   for (const std::shared_ptr<OpenStream>& stream : streams) {
@@ -44,12 +46,12 @@ void StreamRegistry::Tick() {
 }
 
 void StreamRegistry::AwaitNone() {
-  std::unique_lock lock(mutex_);
-  removed_.wait(lock, [this] { return streams_.empty(); });
+  const MutexLock lock(mutex_);
+  while (!streams_.empty()) removed_.Wait(mutex_);
 }
 
 bool StreamRegistry::draining() const {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   return draining_;
 }
 

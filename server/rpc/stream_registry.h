@@ -1,22 +1,22 @@
-// Streams that are open, so that a draining server can end them. Source: own design.
+// The open streams, so that a draining server can end them.
 #ifndef SERVER_RPC_STREAM_REGISTRY_H_
 #define SERVER_RPC_STREAM_REGISTRY_H_
 
 #include <atomic>
-#include <condition_variable>
 #include <cstddef>
 #include <memory>
-#include <mutex>
 #include <set>
+
+#include "homing/base/mutex.h"
 
 namespace homing::server {
 
 class OpenStream {
  public:
   virtual ~OpenStream() = default;
-  // Ends the stream with UNAVAILABLE, once what is on its way to the disk is answered.
+  // Ends the stream with UNAVAILABLE, after the answers to pending commits.
   virtual void Drain() = 0;
-  // Now and then: ends the stream if its caller is known no more, or if nothing moved for too long.
+  // Called periodically: ends the stream if its caller lost its access, or if it is idle.
   virtual void Tick() = 0;
 };
 
@@ -26,23 +26,23 @@ class StreamRegistry {
   // False when draining: the stream is not added and must end.
   bool Add(const std::shared_ptr<OpenStream>& stream);
   void Remove(const std::shared_ptr<OpenStream>& stream);
-  // No stream is added from now on; those that are there are told.
+  // Accepts no more streams, and drains the open ones.
   void Drain();
   bool draining() const;
-  // Tells every stream.
+  // Calls Tick of every stream.
   void Tick();
-  // Until every stream was removed.
+  // Waits until every stream was removed.
   void AwaitNone();
-  // How much of `all` each open stream may have: at least 1, at most `most`. Without a lock, so
-  // that each message may ask.
+  // The part of `all` for each open stream: at least 1, at most `most`. Takes no lock, so that each
+  // message may call it.
   std::size_t ShareOf(std::size_t all, std::size_t most) const;
 
  private:
-  mutable std::mutex mutex_;
-  std::condition_variable removed_;
-  std::set<std::shared_ptr<OpenStream>> streams_;
+  mutable Mutex mutex_;
+  ConditionVariable removed_;
+  std::set<std::shared_ptr<OpenStream>> streams_ HOMING_GUARDED_BY(mutex_);
   std::atomic<std::size_t> size_ = 0;
-  bool draining_ = false;
+  bool draining_ HOMING_GUARDED_BY(mutex_) = false;
 };
 
 }  // namespace homing::server

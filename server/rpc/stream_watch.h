@@ -1,12 +1,12 @@
-// When a stream last moved, and how to break it off. Source: own design.
+// Watches when a stream was last active, and can cancel it.
 #ifndef SERVER_RPC_STREAM_WATCH_H_
 #define SERVER_RPC_STREAM_WATCH_H_
 
 #include <grpcpp/server_context.h>
 
 #include <atomic>
-#include <mutex>
 
+#include "homing/base/mutex.h"
 #include "server/rpc/service_core.h"
 
 namespace homing::server {
@@ -18,29 +18,34 @@ class StreamWatch {
       : core_(core), context_(context), moved_(core->options.clock()) {}
 
   void Moved() { moved_ = core_->options.clock(); }
-  // Nothing moved for longer than idle_stream_s.
+  // The stream was not active for idle_stream_s.
   bool IsIdle() const {
     const std::chrono::seconds most(core_->options.limits.idle_stream_s);
     return most.count() > 0 && core_->options.clock() - moved_.load() > most;
   }
-  // The client sees CANCELLED; what is under way ends as when the link breaks.
+  // The client cancelled the call, its link broke, or BreakOff ended it.
+  bool IsCancelled() const {
+    const MutexLock lock(mutex_);
+    return context_ == nullptr || context_->IsCancelled();
+  }
+  // Cancels the call: the client sees CANCELLED, and the stream ends as after a broken link.
   void BreakOff() {
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     if (context_ != nullptr) {
       context_->TryCancel();
     }
   }
-  // The context is gone: from OnDone.
+  // Called from OnDone: the context is no longer valid.
   void Forget() {
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     context_ = nullptr;
   }
 
  private:
   ServiceCore* const core_;
   // Recursive: gRPC may call back, up to OnDone, before TryCancel returns.
-  std::recursive_mutex mutex_;
-  grpc::ServerContextBase* context_;
+  mutable RecursiveMutex mutex_;
+  grpc::ServerContextBase* context_ HOMING_GUARDED_BY(mutex_);
   std::atomic<TimePoint> moved_;
 };
 

@@ -1,4 +1,4 @@
-// One unary RPC on the pool: I/O threads never compute. Source: own design.
+// Runs one unary RPC in the worker pool, so that I/O threads never compute.
 #ifndef SERVER_RPC_UNARY_CALL_H_
 #define SERVER_RPC_UNARY_CALL_H_
 
@@ -14,9 +14,9 @@
 
 namespace homing::server {
 
-// `call` is absl::Status(const JourneyFilter&), made only if the caller may do this to `resource`;
-// it may use the request and the response of the RPC, which outlive it. Of a pattern it must take
-// what the filter lets through.
+// `call` is absl::Status(const JourneyFilter&). It runs only if the caller may do this to
+// `resource`, and may use the RPC's request and response, which outlive it. For a pattern it must
+// apply the filter.
 template <typename Call>
 grpc::ServerUnaryReactor* ServeUnary(ServiceCore* core, grpc::CallbackServerContext* context,
                                      Rpc rpc, const std::string& resource, Call call) {

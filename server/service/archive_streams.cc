@@ -3,8 +3,10 @@
 #include <utility>
 
 #include "absl/strings/str_cat.h"
+#include "homing/base/field_error.h"
 #include "homing/base/status_macros.h"
 #include "server/base/error_reason.h"
+#include "server/rpc/read_mark.h"
 #include "server/rpc/status_conversion.h"
 #include "server/service/journey_archive.h"
 #include "server/service/message_conversion.h"
@@ -36,7 +38,7 @@ void ImportStream::Open() {
     entered = DrainingError();
   }
   if (entered.ok()) {
-    StartRead(&request_);
+    ReadNext();
   } else {
     FinishWith(entered);
   }
@@ -45,15 +47,15 @@ void ImportStream::Open() {
 absl::Status ImportStream::Take(const v1::ImportJourneyRequest& request) {
   if (request.request_case() == v1::ImportJourneyRequest::kName) {
     if (!name_.empty()) {
-      return absl::InvalidArgumentError("name came twice; only the first message is name");
+      return FieldError("name", "must come once, in the first message");
     }
     name_ = request.name();
     HOMING_RETURN_IF_ERROR(ParseJourneyName(name_, "name").status());
-    // A write goes by the name alone: nothing is looked up.
+    // Writing is authorised by the name alone: nothing is looked up.
     return call_.Authorize(name_);
   }
   if (name_.empty()) {
-    return absl::InvalidArgumentError("chunk came first; the first message must be name");
+    return FieldError("chunk", "came before name; the first message must be name");
   }
   return TakeChunk(request.chunk());
 }
@@ -62,15 +64,14 @@ absl::Status ImportStream::TakeChunk(const std::string& chunk) {
   const auto bytes = static_cast<std::int64_t>(chunk.size());
   const auto size = static_cast<std::int64_t>(file_.size()) + bytes;
   if (size > static_cast<std::int64_t>(kMaxArchiveBytes)) {
-    return absl::InvalidArgumentError(absl::StrCat("chunk makes the file ", size,
-                                                   " bytes; at most ",
-                                                   static_cast<std::int64_t>(kMaxArchiveBytes)));
+    return MustBe("chunk", absl::StrCat("a file of ", size),
+                  absl::StrCat("at most ", kMaxArchiveBytes, " bytes"));
   }
   taken_ += bytes;
   const std::int64_t most = core_->options.limits.memory_quota;
   if ((core_->import_bytes += bytes) > most && most > 0) {
     return WithReason(absl::ResourceExhaustedError(absl::StrCat(
-                          "the files being imported are more than memory-quota, ", most, " bytes")),
+                          "the running imports need more than memory-quota, ", most, " bytes")),
                       {"IMPORT_MEMORY", {}});
   }
   file_ += chunk;
@@ -78,6 +79,10 @@ absl::Status ImportStream::TakeChunk(const std::string& chunk) {
 }
 
 void ImportStream::OnReadDone(bool ok) {
+  if (!ok && IsUndecodable(request_)) {
+    FinishWith(UndecodableError(request_));
+    return;
+  }
   if (!ok) {
     if (!core_->pool.TryRun([self = self_] { self->Complete(); })) {
       FinishWith(BusyError());
@@ -88,20 +93,29 @@ void ImportStream::OnReadDone(bool ok) {
   const absl::Status status = Guarded([this] { return Take(request_); });
   if (status.ok()) {
     request_.Clear();
-    StartRead(&request_);
+    ReadNext();
   } else {
     FinishWith(status);
   }
 }
 
+void ImportStream::ReadNext() {
+  MarkUnread(&request_);
+  StartRead(&request_);
+}
+
 absl::Status ImportStream::Store() {
   if (name_.empty()) {
-    return absl::InvalidArgumentError("name is missing; the first message must be name");
+    return FieldError("name", "is missing; the first message must be name");
   }
   HOMING_RETURN_IF_ERROR(core_->quota.CheckNew(name_));
   HOMING_ASSIGN_OR_RETURN(ArchivedJourney archive, DecodeJourney(file_));
   archive.record.name = name_;
   archive.record.create_time_ns = WallClockNs();
+  // gRPC reports the end of a cancelled stream like the end of a complete one.
+  if (watch_.IsCancelled()) {
+    return absl::CancelledError("the client cancelled the import");
+  }
   HOMING_ASSIGN_OR_RETURN(const storage::JourneyRecord record,
                           core_->catalog.Import(archive.record, archive.map));
   *response_->mutable_journey() = EncodeJourneyRecord(record);
@@ -113,7 +127,7 @@ void ImportStream::Complete() {
 }
 
 void ImportStream::FinishWith(const absl::Status& status) {
-  // Before the answer: who has it may import the next file.
+  // Before the answer: the client may then import the next file.
   FreeFile();
   Finish(call_.Finish(status));
 }

@@ -1,5 +1,4 @@
 // JourneyService.ExportJourney and ImportJourney: a map as one file, in chunks.
-// Source: own design.
 #ifndef SERVER_SERVICE_ARCHIVE_STREAMS_H_
 #define SERVER_SERVICE_ARCHIVE_STREAMS_H_
 
@@ -32,7 +31,7 @@ class ExportStream final : public ChunkStream<v1::ExportJourneyResponse> {
   std::size_t written_ = 0;
 };
 
-// Holds itself until gRPC has done with it.
+// The stream owns itself until gRPC calls OnDone.
 class ImportStream final : public grpc::ServerReadReactor<v1::ImportJourneyRequest>,
                            public OpenStream,
                            public std::enable_shared_from_this<ImportStream> {
@@ -52,6 +51,7 @@ class ImportStream final : public grpc::ServerReadReactor<v1::ImportJourneyReque
 
  private:
   absl::Status Take(const v1::ImportJourneyRequest& request);
+  void ReadNext();
   absl::Status TakeChunk(const std::string& chunk);
   absl::Status Store();
   void Complete();
@@ -66,7 +66,7 @@ class ImportStream final : public grpc::ServerReadReactor<v1::ImportJourneyReque
   v1::ImportJourneyRequest request_;
   std::string name_;
   std::string file_;
-  // Of core_->import_bytes.
+  // Part of core_->import_bytes.
   std::int64_t taken_ = 0;
 };
 

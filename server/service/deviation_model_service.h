@@ -1,4 +1,4 @@
-// DeviationModelService (paper III, eqs 6 to 10). Source: own design.
+// DeviationModelService (paper III, eqs 6 to 10).
 #ifndef SERVER_SERVICE_DEVIATION_MODEL_SERVICE_H_
 #define SERVER_SERVICE_DEVIATION_MODEL_SERVICE_H_
 

@@ -1,4 +1,4 @@
-// HomingService. Source: own design.
+// HomingService.
 #ifndef SERVER_SERVICE_HOMING_SERVICE_H_
 #define SERVER_SERVICE_HOMING_SERVICE_H_
 

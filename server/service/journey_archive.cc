@@ -4,12 +4,14 @@
 #include <google/protobuf/io/zero_copy_stream_impl_lite.h>
 #include <zlib.h>
 
+#include <cmath>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 #include "absl/status/status.h"
 #include "absl/strings/str_cat.h"
+#include "homing/base/field_error.h"
 #include "homing/base/status_macros.h"
 #include "homing/landmark/profile_code.h"
 #include "homing/v1/journey_map.pb.h"
@@ -26,9 +28,12 @@ constexpr char kVersion = 2;
 constexpr char kVersionBefore = 1;
 constexpr std::size_t kHeaderBytes = kMagic.size() + 1;
 constexpr std::size_t kChecksumBytes = 4;
+// Twenty hours at thirty frames a second. Steps without fingerprints take no room in the file, but
+// a hundred bytes each while a robot localises on them.
+constexpr std::int64_t kMostImportedSteps = 2'000'000;
 
 absl::Status Damaged(const std::string& what) {
-  return absl::InvalidArgumentError(absl::StrCat("journey file: ", what));
+  return FieldError("chunk", absl::StrCat("journey file: ", what));
 }
 
 // CRC-32 as in zlib, least significant byte first.
@@ -128,10 +133,21 @@ absl::Status CheckSize(const char* field, std::int64_t size, std::int64_t expect
   return Damaged(absl::StrCat(field, " has ", size, " entries: must have ", expected));
 }
 
+// The database does not keep the sign of 0, so that the file would not come out as it went in.
+template <typename Column>
+absl::Status CheckZeros(const char* field, const Column& values) {
+  for (const double value : values) {
+    if (value == 0 && std::signbit(value)) {
+      return Damaged(absl::StrCat(field, " has -0: must be 0"));
+    }
+  }
+  return absl::OkStatus();
+}
+
 absl::Status CheckColumns(const v1::JourneyMap& message, char version) {
-  if (message.step_count() < 0 || message.step_count() > kMostSteps) {
-    return Damaged(
-        absl::StrCat("step_count is ", message.step_count(), ": must be 0 to ", kMostSteps));
+  if (message.step_count() < 0 || message.step_count() > kMostImportedSteps) {
+    return Damaged(absl::StrCat("step_count is ", message.step_count(), ": must be 0 to ",
+                                kMostImportedSteps));
   }
   if (message.start_time_ns() < 0 || message.end_time_ns() < 0) {
     return Damaged("start_time_ns or end_time_ns is negative");
@@ -146,6 +162,9 @@ absl::Status CheckColumns(const v1::JourneyMap& message, char version) {
   std::int64_t fingerprints = 0;
   for (std::uint32_t of_step : message.fingerprints_per_step()) fingerprints += of_step;
   HOMING_RETURN_IF_ERROR(CheckSize("landmarks", message.landmarks_size(), fingerprints));
+  HOMING_RETURN_IF_ERROR(CheckZeros("xs", message.xs()));
+  HOMING_RETURN_IF_ERROR(CheckZeros("ys", message.ys()));
+  HOMING_RETURN_IF_ERROR(CheckZeros("landmark_spreads", message.landmark_spreads()));
   HOMING_RETURN_IF_ERROR(CheckSize("xs", message.xs_size(), fingerprints));
   HOMING_RETURN_IF_ERROR(CheckSize("ys", message.ys_size(), fingerprints));
   return CheckSize("counts", message.counts_size(), fingerprints);
@@ -164,8 +183,8 @@ absl::StatusOr<JourneySettings> SettingsOf(const v1::JourneyMap& message) {
   return result;
 }
 
-// Entry `index` of the fingerprint columns. The landmark's mean spread stands for that of each of
-// its steps: a running mean of equal values is that value, to the bit.
+// Entry `index` of the fingerprint columns. Each step gets the landmark's mean spread: a running
+// mean of equal values is that value, to the bit.
 absl::StatusOr<RecordedFingerprint> FingerprintAt(const v1::JourneyMap& message, int index) {
   const std::int32_t landmark = message.landmarks(index);
   if (landmark < 0 || landmark >= message.landmark_sides_size()) {
@@ -255,7 +274,7 @@ absl::StatusOr<ArchivedJourney> DecodeJourney(std::string_view bytes) {
   const std::int64_t steps = journey.map.step_count();
   journey.record.next_sequence = steps == 0 ? 0 : journey.map.sequence(steps - 1) + 1;
   journey.record.resend_from = journey.record.next_sequence;
-  // One map, one file: what this program would write differently is not taken.
+  // Each map has exactly one file: a file that this program would write differently is refused.
   HOMING_ASSIGN_OR_RETURN(const std::string again, EncodeAs(version, journey.record, journey.map));
   if (again != bytes) return Damaged("holds something that this program does not know");
   return journey;

@@ -1,5 +1,5 @@
 // The export file of a journey: magic, message homing.v1.JourneyMap, checksum
-// (docs/storage-format.md). Source: own design.
+// (docs/storage-format.md).
 #ifndef SERVER_SERVICE_JOURNEY_ARCHIVE_H_
 #define SERVER_SERVICE_JOURNEY_ARCHIVE_H_
 
@@ -17,18 +17,18 @@ namespace homing::server {
 inline constexpr std::size_t kMaxArchiveBytes = std::size_t{256} * 1024 * 1024;
 
 struct ArchivedJourney {
-  // Settings, start and end time, next_sequence = step_count, finished. The rest is empty.
+  // Sets settings, start and end time, next_sequence = step_count, finished.
   storage::JourneyRecord record;
   JourneyMap map;
 };
 
-// Of `record`, only the start and end time go into the file. Same map and times, same bytes.
+// Only the start and end time of `record` go into the file. Equal maps and times give equal bytes.
 // INVALID_ARGUMENT: larger than kMaxArchiveBytes.
 absl::StatusOr<std::string> EncodeJourney(const storage::JourneyRecord& record,
                                           const JourneyMap& map);
 
-// INVALID_ARGUMENT saying what is wrong: not such a file, too large, damaged (truncated, changed),
-// or with content that no map has.
+// INVALID_ARGUMENT with the reason: another kind of file, too large, damaged (truncated, changed),
+// or with content that no map can have.
 absl::StatusOr<ArchivedJourney> DecodeJourney(std::string_view bytes);
 
 }  // namespace homing::server

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "absl/strings/str_cat.h"
+#include "homing/base/field_error.h"
 #include "homing/base/status_macros.h"
 #include "homing/localization/aliasing.h"
 #include "homing/localization/position_filter.h"
@@ -20,26 +21,13 @@ namespace {
 
 constexpr int kMaxReaders = 1000;
 
-absl::StatusOr<std::vector<std::string>> DecodeReaders(const v1::Journey& journey) {
-  if (journey.readers_size() > kMaxReaders) {
-    return absl::InvalidArgumentError(absl::StrCat("journey.readers has ", journey.readers_size(),
-                                                   " entries; at most ", kMaxReaders));
-  }
-  for (const std::string& reader : journey.readers()) {
-    HOMING_RETURN_IF_ERROR(reader == "*"
-                               ? absl::OkStatus()
-                               : ParseRobotName(reader, "journey.readers", false).status());
-  }
-  return std::vector<std::string>(journey.readers().begin(), journey.readers().end());
-}
-
 absl::StatusOr<JourneySettings> DecodeSettings(const v1::JourneySettings& message,
                                                ModelCatalog* models) {
   HOMING_ASSIGN_OR_RETURN(JourneySettings settings,
                           wire::FromProto(message, "journey.settings", JourneySettings()));
-  HOMING_ASSIGN_OR_RETURN(const storage::StoredModel model,
-                          models->Get(settings.deviation_model_name));
-  settings.deviation_model = model.model;
+  const auto model = models->Get(settings.deviation_model_name);
+  HOMING_RETURN_IF_ERROR(Within("journey.settings.deviation_model", model.status()));
+  settings.deviation_model = model->model;
   HOMING_RETURN_IF_ERROR(Validate(settings));
   return settings;
 }
@@ -84,6 +72,19 @@ void AddFingerprints(const JourneyMap& map, const Landmark& landmark, v1::Landma
 
 }  // namespace
 
+absl::StatusOr<std::vector<std::string>> DecodeReaders(
+    const google::protobuf::RepeatedPtrField<std::string>& readers, const std::string& field) {
+  if (readers.size() > kMaxReaders) {
+    return MustBe(field, readers.size(), absl::StrCat("at most ", kMaxReaders, " entries"));
+  }
+  for (int i = 0; i < readers.size(); ++i) {
+    if (readers[i] == "*") continue;
+    HOMING_RETURN_IF_ERROR(
+        ParseRobotName(readers[i], absl::StrCat(field, "[", i, "]"), false).status());
+  }
+  return std::vector<std::string>(readers.begin(), readers.end());
+}
+
 absl::StatusOr<storage::JourneyRecord> DecodeCreateJourney(const v1::CreateJourneyRequest& request,
                                                            ModelCatalog* models,
                                                            std::int64_t now_ns) {
@@ -95,7 +96,8 @@ absl::StatusOr<storage::JourneyRecord> DecodeCreateJourney(const v1::CreateJourn
   record.name = JourneyName{robot, request.journey_id()}.ToString();
   record.writer_id = request.writer_id();
   record.create_time_ns = now_ns;
-  HOMING_ASSIGN_OR_RETURN(record.readers, DecodeReaders(request.journey()));
+  HOMING_ASSIGN_OR_RETURN(record.readers,
+                          DecodeReaders(request.journey().readers(), "journey.readers"));
   HOMING_ASSIGN_OR_RETURN(record.settings, DecodeSettings(request.journey().settings(), models));
   return record;
 }
@@ -152,7 +154,7 @@ absl::Status DescribeAliasing(const v1::AnalyzeAliasingRequest& request, Journey
   HOMING_RETURN_IF_ERROR(Validate(options));
   HOMING_ASSIGN_OR_RETURN(auto journey, catalog->Open(name.ToString()));
   const LiveJourneys one = {std::move(journey)};
-  // A copy: recording goes on meanwhile.
+  // A copy, because recording continues meanwhile.
   RouteProfiles profiles;
   {
     const MapsLock lock(one);

@@ -1,4 +1,4 @@
-// Requests of JourneyService that take more than a name. Source: own design.
+// Requests of JourneyService that hold more than a name.
 #ifndef SERVER_SERVICE_JOURNEY_REQUESTS_H_
 #define SERVER_SERVICE_JOURNEY_REQUESTS_H_
 
@@ -12,6 +12,10 @@
 #include "storage/journey_store.h"
 
 namespace homing::server {
+
+// Robots' names and "*". INVALID_ARGUMENT naming `field`.
+absl::StatusOr<std::vector<std::string>> DecodeReaders(
+    const google::protobuf::RepeatedPtrField<std::string>& readers, const std::string& field);
 
 // `now_ns` is the server's clock. INVALID_ARGUMENT; NOT_FOUND (deviation model).
 absl::StatusOr<storage::JourneyRecord> DecodeCreateJourney(const v1::CreateJourneyRequest& request,

@@ -66,10 +66,25 @@ grpc::ServerUnaryReactor* JourneyServiceHandler::FinishJourney(
       [core = core_, request, response](const JourneyFilter& /*all*/) -> absl::Status {
         HOMING_ASSIGN_OR_RETURN(const JourneyName name, ParseJourneyName(request->name(), "name"));
         HOMING_RETURN_IF_ERROR(CheckWriterId(request->writer_id(), "writer_id"));
-        HOMING_ASSIGN_OR_RETURN(
-            const storage::JourneyRecord record,
-            core->catalog.Finish(name.ToString(), request->writer_id(), core->options.clock()));
+        HOMING_ASSIGN_OR_RETURN(const storage::JourneyRecord record,
+                                core->catalog.Finish(name.ToString(), request->writer_id(),
+                                                     request->force(), core->options.clock()));
         *response->mutable_journey() = EncodeJourneyRecord(record);
+        return absl::OkStatus();
+      });
+}
+
+grpc::ServerUnaryReactor* JourneyServiceHandler::SetReaders(grpc::CallbackServerContext* context,
+                                                            const v1::SetReadersRequest* request,
+                                                            v1::Journey* response) {
+  return ServeUnary(
+      core_, context, Rpc::kSetReaders, request->name(),
+      [core = core_, request, response](const JourneyFilter& /*all*/) -> absl::Status {
+        HOMING_ASSIGN_OR_RETURN(const JourneyName name, ParseJourneyName(request->name(), "name"));
+        HOMING_ASSIGN_OR_RETURN(const auto readers, DecodeReaders(request->readers(), "readers"));
+        HOMING_ASSIGN_OR_RETURN(const storage::JourneyRecord record,
+                                core->catalog.SetReaders(name.ToString(), readers));
+        *response = EncodeJourneyRecord(record);
         return absl::OkStatus();
       });
 }

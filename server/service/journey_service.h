@@ -1,5 +1,4 @@
-// JourneyService: each RPC decodes, makes one call of the session layer, encodes.
-// Source: own design.
+// JourneyService: each RPC decodes, calls the session layer once, and encodes.
 #ifndef SERVER_SERVICE_JOURNEY_SERVICE_H_
 #define SERVER_SERVICE_JOURNEY_SERVICE_H_
 
@@ -28,6 +27,9 @@ class JourneyServiceHandler final : public v1::JourneyService::CallbackService {
   grpc::ServerUnaryReactor* FinishJourney(grpc::CallbackServerContext* context,
                                           const v1::FinishJourneyRequest* request,
                                           v1::FinishJourneyResponse* response) override;
+  grpc::ServerUnaryReactor* SetReaders(grpc::CallbackServerContext* context,
+                                       const v1::SetReadersRequest* request,
+                                       v1::Journey* response) override;
   grpc::ServerUnaryReactor* ListLandmarks(grpc::CallbackServerContext* context,
                                           const v1::ListLandmarksRequest* request,
                                           v1::ListLandmarksResponse* response) override;

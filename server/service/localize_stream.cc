@@ -1,5 +1,6 @@
 #include "server/service/localize_stream.h"
 
+#include "homing/base/field_error.h"
 #include "homing/base/status_macros.h"
 #include "server/service/message_conversion.h"
 
@@ -14,12 +15,12 @@ absl::Status LocalizeStream::Handle(const v1::LocalizeRequest& request) {
     case v1::LocalizeRequest::REQUEST_NOT_SET:
       break;
   }
-  return absl::InvalidArgumentError("request is empty; it must be config or observation");
+  return FieldError("request", "must be config or observation");
 }
 
 absl::Status LocalizeStream::Begin(const v1::LocalizeConfig& config) {
   if (session_) {
-    return absl::InvalidArgumentError("config came twice; only the first message is config");
+    return FieldError("config", "must come once, in the first message");
   }
   HOMING_RETURN_IF_ERROR(call().Authorize(config.journey()));
   HOMING_ASSIGN_OR_RETURN(HomingQuery query, DecodeHomingQuery(config));
@@ -32,7 +33,7 @@ absl::Status LocalizeStream::Begin(const v1::LocalizeConfig& config) {
 
 absl::Status LocalizeStream::Localize(const v1::Observation& observation) {
   if (!session_) {
-    return absl::InvalidArgumentError("observation came first; the first message must be config");
+    return FieldError("observation", "came before config; the first message must be config");
   }
   HOMING_RETURN_IF_ERROR(call().TakeObservation());
   const TimePoint begin = std::chrono::steady_clock::now();

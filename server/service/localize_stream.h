@@ -1,4 +1,4 @@
-// HomingService.Localize. Source: own design.
+// HomingService.Localize.
 #ifndef SERVER_SERVICE_LOCALIZE_STREAM_H_
 #define SERVER_SERVICE_LOCALIZE_STREAM_H_
 

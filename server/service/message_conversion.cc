@@ -124,6 +124,9 @@ v1::Journey EncodeJourneyRecord(const storage::JourneyRecord& record) {
     *message.mutable_end_time() = wire::TimestampToProto(record.end_time_ns);
   }
   message.mutable_readers()->Assign(record.readers.begin(), record.readers.end());
+  if (const std::size_t mark = record.writer_id.find('#'); mark != std::string::npos) {
+    message.set_source_mark(record.writer_id.substr(mark + 1));
+  }
   return message;
 }
 

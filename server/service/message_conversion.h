@@ -1,5 +1,5 @@
-// Messages of the services to and from the types of the session layer; what both client and server
-// convert is in proto/wire. Source: own design.
+// Converts the services' messages to and from the session layer's types. Conversions that client
+// and server share are in proto/wire.
 #ifndef SERVER_SERVICE_MESSAGE_CONVERSION_H_
 #define SERVER_SERVICE_MESSAGE_CONVERSION_H_
 
@@ -25,9 +25,9 @@ void EncodeLocalization(const Localization& localization, const LocalizationSess
 v1::MatchLandmarksResponse EncodeQueryResult(const LandmarkQueryResult& result);
 v1::DeviationModel EncodeModel(const storage::StoredModel& model);
 
-// INVALID_ARGUMENT naming field, value and limit. What is unset takes its default.
+// INVALID_ARGUMENT naming field, value and limit. Unset fields have their defaults.
 absl::StatusOr<HomingQuery> DecodeHomingQuery(const v1::LocalizeConfig& config);
-// Frames view the bytes of `request`, which must outlive the result.
+// Frames point into `request`, which must outlive the result.
 absl::StatusOr<LandmarkQuery> DecodeLandmarkQuery(const v1::MatchLandmarksRequest& request,
                                                   const wire::WireLimits& limits);
 TrainingOptions DecodeTraining(const v1::TrainingSettings& settings);

@@ -22,7 +22,7 @@ v1::TrainingSettings EncodeTraining(const TrainingOptions& options) {
   return message;
 }
 
-// `value` if it is given, else as it was.
+// `value` if it is set, else the previous value.
 template <typename T>
 void Take(bool given, T value, T* target) {
   if (given) {

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "absl/strings/str_cat.h"
+#include "homing/base/field_error.h"
 #include "homing/base/range_check.h"
 #include "homing/base/status_macros.h"
 #include "server/service/message_conversion.h"
@@ -10,7 +11,7 @@
 namespace homing::server {
 namespace {
 
-// How often a stream asks whether its robot still has room: it may go over by as many.
+// Observations between two checks of the robot's quota, which it may exceed by as many.
 constexpr std::int64_t kQuotaEvery = 256;
 
 }  // namespace
@@ -24,12 +25,12 @@ absl::Status RecordStream::Handle(const v1::RecordJourneyRequest& request) {
     case v1::RecordJourneyRequest::REQUEST_NOT_SET:
       break;
   }
-  return absl::InvalidArgumentError("request is empty; it must be config or observation");
+  return FieldError("request", "must be config or observation");
 }
 
 absl::Status RecordStream::Begin(const v1::RecordingConfig& config) {
   if (session_) {
-    return absl::InvalidArgumentError("config came twice; only the first message is config");
+    return FieldError("config", "must come once, in the first message");
   }
   HOMING_RETURN_IF_ERROR(call().Authorize(config.journey()));
   HOMING_RETURN_IF_ERROR(core()->quota.CheckGrowth(config.journey()));
@@ -55,7 +56,7 @@ absl::Status RecordStream::Begin(const v1::RecordingConfig& config) {
 
 absl::Status RecordStream::Record(const v1::Observation& observation) {
   if (!session_) {
-    return absl::InvalidArgumentError("observation came first; the first message must be config");
+    return FieldError("observation", "came before config; the first message must be config");
   }
   if (const absl::Status status = CheckLimits(); !status.ok()) {
     session_->Reject(status);
@@ -77,11 +78,11 @@ absl::Status RecordStream::CheckLimits() {
                                             : absl::OkStatus();
 }
 
-void RecordStream::HandleDrain() {
+void RecordStream::EndInTurn(const absl::Status& status) {
   if (session_) {
-    session_->Reject(DrainingError());
+    session_->Reject(status);
   } else {
-    End(DrainingError());
+    End(status);
   }
 }
 

@@ -1,4 +1,4 @@
-// JourneyService.RecordJourney. Source: own design (resumable recording).
+// JourneyService.RecordJourney: recording that can be resumed.
 #ifndef SERVER_SERVICE_RECORD_STREAM_H_
 #define SERVER_SERVICE_RECORD_STREAM_H_
 
@@ -18,7 +18,8 @@ class RecordStream final : public BidiStream<v1::RecordJourneyRequest, v1::Recor
 
  protected:
   absl::Status Handle(const v1::RecordJourneyRequest& request) override;
-  void HandleDrain() override;
+  // After the pending appends are committed.
+  void EndInTurn(const absl::Status& status) override;
   void HandleDone() override { session_.reset(); }
 
  private:

@@ -1,4 +1,4 @@
-// StoreService: the store as a whole. Source: own design.
+// StoreService: the store as a whole.
 #ifndef SERVER_SERVICE_STORE_SERVICE_H_
 #define SERVER_SERVICE_STORE_SERVICE_H_
 

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "absl/strings/str_cat.h"
+#include "homing/base/field_error.h"
 #include "homing/base/range_check.h"
 #include "homing/base/status_macros.h"
 #include "homing/flow/motion.h"
@@ -20,27 +21,27 @@ std::string NameOf(std::size_t camera) { return camera == 0 ? "left" : "right"; 
 
 absl::Status CheckFingerprints(const SeenFingerprints& seen) {
   if (seen.landmarks.size() > kMaxFingerprints) {
-    return absl::InvalidArgumentError(
-        absl::StrCat("fingerprints has ", seen.landmarks.size(), " entries; at most 100"));
+    return MustBe("fingerprints", seen.landmarks.size(),
+                  absl::StrCat("at most ", kMaxFingerprints, " entries"));
   }
   for (const SeenLandmark& landmark : seen.landmarks) {
     if (!std::isfinite(landmark.x) || !std::isfinite(landmark.y) || landmark.count < 0) {
-      return absl::InvalidArgumentError(
-          absl::StrCat("fingerprints has x ", landmark.x, ", y ", landmark.y, ", count ",
-                       landmark.count, "; they must be finite, the count not negative"));
+      return MustBe("fingerprints",
+                    absl::StrCat("x ", landmark.x, ", y ", landmark.y, ", count ", landmark.count),
+                    "finite, with a count of at least 0");
     }
   }
   return absl::OkStatus();
 }
 
-// Sizes of the images behind the views; a pair of frames is measured on its first one.
+// Sizes of the views' images; a pair of frames has the size of its first one.
 absl::StatusOr<QueryRobot> MeasureRobot(const LandmarkQuery& query, const DecodeLimits& limits) {
   QueryRobot robot;
   robot.travel = query.travel;
   for (std::size_t side = 0; side < query.views.size(); ++side) {
     if (const auto* pair = std::get_if<FramePair>(&query.views[side])) {
       const auto image = DecodeGray(pair->first, limits);
-      HOMING_RETURN_IF_ERROR(Within(absl::StrCat(NameOf(side), ": first"), image.status()));
+      HOMING_RETURN_IF_ERROR(Within(absl::StrCat(NameOf(side), ".first"), image.status()));
       robot.widths[side] = image->cols;
       robot.heights[side] = image->rows;
     } else if (const auto* flow = std::get_if<FlowField>(&query.views[side])) {
@@ -55,7 +56,7 @@ absl::StatusOr<QueryRobot> MeasureRobot(const LandmarkQuery& query, const Decode
   return robot;
 }
 
-// Raw flow of one camera (II-B) as the left one's; none for fingerprints and an absent camera.
+// Raw flow of one camera (II-B) as the left one's; none for fingerprints and for an absent camera.
 absl::StatusOr<ObservedFlow> FlowOf(const QueryView& view, const FlowOptions& options,
                                     const DecodeLimits& limits) {
   ObservationFlow tracker(options, limits);
@@ -78,7 +79,7 @@ struct SeenNow {
   SeenSides sides;
 };
 
-// Views -> flow -> motion -> landmarks, sides turned to those of the route.
+// Views to flow to motion to landmarks, by side of the route.
 absl::StatusOr<SeenNow> See(const LandmarkQuery& query, const LocalizerOptions& options,
                             const DecodeLimits& limits) {
   SeenNow now;
@@ -130,16 +131,16 @@ absl::StatusOr<LandmarkQueryResult> MatchLandmarks(JourneyCatalog* catalog,
   HOMING_ASSIGN_OR_RETURN(const JourneyName pattern, ParseJourneyPattern(query.journey, "journey"));
   HOMING_RETURN_IF_ERROR(Validate(query.match));
   if (query.views[0].index() == 0 && query.views[1].index() == 0) {
-    return absl::InvalidArgumentError("left and right are both empty; a camera is required");
+    return FieldError("left", "must be set unless right is");
   }
   HOMING_ASSIGN_OR_RETURN(const QueryRobot robot, MeasureRobot(query, limits));
-  // The index knows no callers: it answers those who may read all.
+  // The index cannot filter by caller: it serves callers that may read all.
   if (catalog->index() != nullptr && IsAll(pattern) && !query.filter) {
     return MatchAll(catalog->index(), query, robot, limits);
   }
   HOMING_ASSIGN_OR_RETURN(const LiveJourneys covered, catalog->Resolve(pattern, query.filter));
-  HOMING_ASSIGN_OR_RETURN(const JourneySelection selection,
-                          SelectJourneys(covered, pattern, robot));
+  HOMING_ASSIGN_OR_RETURN(JourneySelection selection, SelectJourneys(covered, pattern, robot));
+  HOMING_RETURN_IF_ERROR(catalog->LoadMaps(pattern, &selection.journeys));
   HOMING_ASSIGN_OR_RETURN(SeenNow now, See(query, selection.options, limits));
 
   LandmarkQueryResult result{now.motion, {}, std::move(now.sides)};

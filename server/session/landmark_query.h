@@ -1,5 +1,5 @@
-// One shot: which stored landmarks resemble what two frames, flow vectors or fingerprints show?
-// Source: paper III (eqs 11 to 15).
+// One query: which stored landmarks are similar to those in two frames, flow vectors or
+// fingerprints? Source: paper III (eqs 11 to 15).
 #ifndef SERVER_SESSION_LANDMARK_QUERY_H_
 #define SERVER_SESSION_LANDMARK_QUERY_H_
 
@@ -21,7 +21,7 @@ struct FramePair {
 };
 
 struct SeenFingerprints {
-  // Size of the image they come from, pixels; 0: not checked.
+  // Size of the image they were found in, pixels; 0: not checked.
   int width = 0;
   int height = 0;
   std::vector<SeenLandmark> landmarks;
@@ -30,7 +30,7 @@ struct SeenFingerprints {
 using QueryView = std::variant<std::monostate, FramePair, FlowField, SeenFingerprints>;
 
 struct LandmarkQuery {
-  // Name or pattern; of a pattern, those that the filter lets through.
+  // Name or pattern; `filter` selects journeys of a pattern.
   std::string journey;
   JourneyFilter filter;
   Travel travel = Travel::kReturn;
@@ -45,7 +45,7 @@ struct NamedMatch {
 };
 
 struct LandmarkQueryResult {
-  // Absent when only fingerprints were given.
+  // Absent if only fingerprints were given.
   std::optional<Motion> motion;
   std::vector<NamedMatch> matches;
   // By side of the ROUTE.

@@ -6,12 +6,12 @@
 #include "absl/strings/str_cat.h"
 #include "homing/base/range_check.h"
 #include "homing/base/status_macros.h"
-#include "server/base/error_reason.h"
+#include "server/session/sequence_check.h"
 
 namespace homing::server {
 namespace {
 
-// Size of what one camera sent; a compressed frame that does not say it is decoded for it.
+// Size of one camera's image; a compressed frame without a size is decoded for it.
 absl::Status MeasureView(const CameraView& view, const DecodeLimits& limits, int* width,
                          int* height) {
   if (const auto* flow = std::get_if<FlowField>(&view)) {
@@ -52,22 +52,20 @@ absl::StatusOr<std::unique_ptr<LocalizationSession>> LocalizationSession::Open(
     HOMING_RETURN_IF_ERROR(camera ? Validate(*camera) : absl::OkStatus());
   }
   std::unique_ptr<LocalizationSession> session(
-      new LocalizationSession(query, std::move(pattern), limits));
+      new LocalizationSession(catalog, query, std::move(pattern), limits));
   HOMING_ASSIGN_OR_RETURN(session->journeys_, catalog->Resolve(session->pattern_, query.filter));
   HOMING_RETURN_IF_ERROR(
       SelectJourneys(session->journeys_, session->pattern_, RobotOf(query)).status());
+  if (!session->pattern_.is_pattern()) {
+    HOMING_RETURN_IF_ERROR(catalog->LoadMaps(session->pattern_, &session->journeys_));
+  }
   return session;
 }
 
 absl::Status LocalizationSession::CheckSequence(std::int64_t sequence) {
-  if (sequence < 0) {
-    return absl::InvalidArgumentError(
-        absl::StrCat("observation.sequence is ", sequence, "; numbers begin at 0"));
-  }
+  HOMING_RETURN_IF_ERROR(CheckSequenceNumber(sequence));
   if (due_ && sequence != *due_) {
-    return WithReason(absl::OutOfRangeError(absl::StrCat("observation.sequence is ", sequence, "; ",
-                                                         *due_, " is due")),
-                      {"SEQUENCE_GAP", {{"due", absl::StrCat(*due_)}}});
+    return SequenceGapError(sequence, *due_);
   }
   return absl::OkStatus();
 }
@@ -84,6 +82,7 @@ absl::Status LocalizationSession::Start(const Observation& observation) {
   selection.options.position = query_.position;
   HOMING_RETURN_IF_ERROR(Validate(selection.options));
   journeys_ = std::move(selection.journeys);
+  HOMING_RETURN_IF_ERROR(catalog_->LoadMaps(pattern_, &journeys_));
   localizer_.emplace(selection.options, limits_);
   return absl::OkStatus();
 }
@@ -105,8 +104,7 @@ absl::StatusOr<Localization> LocalizationSession::Localize(const Observation& ob
     HOMING_RETURN_IF_ERROR(Start(observation));
   }
   if (!pattern_.is_pattern() && journeys_.front()->deleted()) {
-    return absl::NotFoundError(
-        absl::StrCat("journey is \"", pattern_.ToString(), "\"; it was deleted"));
+    return absl::NotFoundError(absl::StrCat("journey: \"", pattern_.ToString(), "\" was deleted"));
   }
   const MapsLock lock(journeys_);
   if (!started_ && query_.prior) {

@@ -1,5 +1,4 @@
-// One robot on its way home: observations to matches and a position, on the journeys it asked for.
-// Source: own design.
+// Localises one robot on its way home, on the journeys that it asks for.
 #ifndef SERVER_SESSION_LOCALIZATION_SESSION_H_
 #define SERVER_SESSION_LOCALIZATION_SESSION_H_
 
@@ -22,7 +21,7 @@ struct LocalizationPrior {
 };
 
 struct HomingQuery {
-  // Name or pattern; of a pattern, those that the filter lets through.
+  // Name or pattern; `filter` selects journeys of a pattern.
   std::string journey;
   JourneyFilter filter;
   Travel travel = Travel::kReturn;
@@ -32,8 +31,8 @@ struct HomingQuery {
   std::optional<LocalizationPrior> prior;
 };
 
-// Not thread-safe. Journeys are chosen once, at the first observation, when image sizes are known;
-// their maps may grow all the while. Nothing is stored.
+// Not thread-safe. The first observation selects the journeys, once image sizes are known; their
+// maps may grow afterwards. Nothing is stored.
 class LocalizationSession {
  public:
   // `catalog` must outlive the session. INVALID_ARGUMENT, NOT_FOUND, FAILED_PRECONDITION (the named
@@ -42,8 +41,9 @@ class LocalizationSession {
                                                                    const HomingQuery& query,
                                                                    const DecodeLimits& limits);
 
-  // The first may have any number; each one after must have the next: OUT_OF_RANGE. NOT_FOUND: the
-  // journey, named, was deleted. FAILED_PRECONDITION: other camera or settings. INVALID_ARGUMENT.
+  // The first observation may have any sequence; each later one must have the next: OUT_OF_RANGE.
+  // NOT_FOUND: the named journey was deleted. FAILED_PRECONDITION: other camera or settings.
+  // INVALID_ARGUMENT. RESOURCE_EXHAUSTED: as JourneyCatalog::LoadMaps.
   absl::StatusOr<Localization> Localize(const Observation& observation);
 
   // Of the journey that a Localization numbers.
@@ -52,12 +52,14 @@ class LocalizationSession {
   }
 
  private:
-  LocalizationSession(const HomingQuery& query, JourneyName pattern, const DecodeLimits& limits)
-      : query_(query), pattern_(std::move(pattern)), limits_(limits) {}
+  LocalizationSession(JourneyCatalog* catalog, const HomingQuery& query, JourneyName pattern,
+                      const DecodeLimits& limits)
+      : catalog_(catalog), query_(query), pattern_(std::move(pattern)), limits_(limits) {}
   absl::Status CheckSequence(std::int64_t sequence);
   absl::Status Start(const Observation& observation);
   absl::Status StartAt(const LocalizationPrior& prior);
 
+  JourneyCatalog* const catalog_;
   const HomingQuery query_;
   const JourneyName pattern_;
   const DecodeLimits limits_;

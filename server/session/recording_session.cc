@@ -5,9 +5,12 @@
 #include <utility>
 
 #include "absl/strings/str_cat.h"
+#include "homing/base/field_error.h"
+#include "homing/base/mutex.h"
 #include "homing/base/range_check.h"
 #include "homing/base/status_macros.h"
 #include "server/base/error_reason.h"
+#include "server/session/sequence_check.h"
 
 namespace homing::server {
 namespace {
@@ -16,13 +19,7 @@ std::string KindName(InputKind kind) {
   return kind == InputKind::kFrames ? "frames" : "flow vectors";
 }
 
-absl::Status GapError(std::int64_t sequence, std::int64_t due) {
-  return WithReason(absl::OutOfRangeError(
-                        absl::StrCat("observation.sequence is ", sequence, "; ", due, " is due")),
-                    {"SEQUENCE_GAP", {{"due", absl::StrCat(due)}}});
-}
-
-// All of the settings that an observation may change.
+// The part of the settings that an observation may change.
 std::array<int, 4> ImageSizes(const JourneySettings& settings) {
   const auto& [left, right] = settings.cameras;
   return {left.width, left.height, right.width, right.height};
@@ -36,7 +33,7 @@ absl::StatusOr<std::shared_ptr<RecordingSession>> RecordingSession::Open(
   HOMING_ASSIGN_OR_RETURN(const JourneyName name, ParseJourneyName(journey, "config.journey"));
   HOMING_RETURN_IF_ERROR(CheckWriterId(writer_id, "config.writer_id"));
   if (writer_id.empty()) {
-    return absl::InvalidArgumentError("config.writer_id is empty; it must name the writer");
+    return FieldError("config.writer_id", "must name the writer");
   }
   std::shared_ptr<RecordingSession> session(new RecordingSession(context, std::move(listener)));
   HOMING_ASSIGN_OR_RETURN(WriterClaim claim,
@@ -51,6 +48,10 @@ absl::StatusOr<std::shared_ptr<RecordingSession>> RecordingSession::Open(
   return session;
 }
 
+RecordingSession::~RecordingSession() {
+  if (claim_.journey) claim_.journey->EndStream(claim_.claim);
+}
+
 absl::Status RecordingSession::Start(WriterClaim claim) {
   claim_ = std::move(claim);
   HOMING_ASSIGN_OR_RETURN(const JourneyTail tail, claim_.journey->LoadTail());
@@ -62,7 +63,7 @@ absl::Status RecordingSession::Start(WriterClaim claim) {
   due_ = std::min(record.resend_from, next_);
   RecordingAnswer first;
   if (tail.last_sequence >= 0) first.frame = tail.last_sequence;
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   durable_next_ = next_;
   durable_resend_from_ = due_;
   Deliver({true, absl::OkStatus(), std::move(first)});
@@ -81,7 +82,7 @@ void RecordingSession::Record(const Observation& observation, TimePoint now) {
 
 void RecordingSession::Reject(const absl::Status& status) { Complete(OpenSlot(), status, {}); }
 
-// Observation -> number -> step -> commit -> answer.
+// Check the sequence, make the step, submit it; the commit sends the answer.
 absl::Status RecordingSession::Process(const Observation& observation, TimePoint now,
                                        std::int64_t slot) {
   HOMING_RETURN_IF_ERROR(claim_.journey->Renew(claim_.claim, now));
@@ -118,13 +119,10 @@ absl::Status RecordingSession::Process(const Observation& observation, TimePoint
 }
 
 absl::Status RecordingSession::CheckDue(const Observation& observation) const {
-  if (observation.sequence < 0) {
-    return absl::InvalidArgumentError(
-        absl::StrCat("observation.sequence is ", observation.sequence, "; numbers begin at 0"));
-  }
-  const bool goes_on_after_break = observation.break_before && observation.sequence == next_;
-  if (observation.sequence > due_ && !goes_on_after_break) {
-    return GapError(observation.sequence, due_);
+  HOMING_RETURN_IF_ERROR(CheckSequenceNumber(observation.sequence));
+  const bool resumes_after_break = observation.break_before && observation.sequence == next_;
+  if (observation.sequence > due_ && !resumes_after_break) {
+    return SequenceGapError(observation.sequence, due_);
   }
   return absl::OkStatus();
 }
@@ -133,8 +131,8 @@ absl::Status RecordingSession::CheckKind(const Observation& observation) {
   HOMING_ASSIGN_OR_RETURN(const InputKind kind, InputKindOf(observation));
   if (kind_ != InputKind::kUnknown && kind != kind_) {
     return WithReason(absl::FailedPreconditionError(absl::StrCat(
-                          "observation holds ", KindName(kind), "; the journey is recorded with ",
-                          KindName(kind_), " and takes nothing else")),
+                          "observation: ", KindName(kind), " must be ", KindName(kind_),
+                          ", as the journey is recorded with ", KindName(kind_))),
                       {"OTHER_INPUT", {}});
   }
   kind_ = kind;
@@ -159,14 +157,14 @@ absl::Status RecordingSession::Commit(storage::JourneyAppend append, RecordingAn
 }
 
 std::int64_t RecordingSession::OpenSlot() {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   slots_.emplace_back();
   return first_slot_ + static_cast<std::int64_t>(slots_.size()) - 1;
 }
 
 void RecordingSession::Complete(std::int64_t slot, const absl::Status& status,
                                 RecordingAnswer answer) {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   if (ended_) {
     return;
   }
@@ -198,12 +196,12 @@ void RecordingSession::Deliver(Slot slot) {
 }
 
 bool RecordingSession::ended() {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   return ended_;
 }
 
 void RecordingSession::End(const absl::Status& status) {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   if (!ended_) {
     ended_ = true;
     listener_.end(status);

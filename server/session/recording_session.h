@@ -1,5 +1,5 @@
-// One stream of one writer: observations to durable steps, each acknowledged after its commit.
-// Source: own design (resumable recording).
+// One writer's stream: observations become committed steps, and each is acknowledged after its
+// commit.
 #ifndef SERVER_SESSION_RECORDING_SESSION_H_
 #define SERVER_SESSION_RECORDING_SESSION_H_
 
@@ -7,12 +7,12 @@
 #include <deque>
 #include <functional>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <string>
 
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
+#include "homing/base/mutex.h"
 #include "homing/journey/journey_recorder.h"
 #include "server/catalog/journey_catalog.h"
 #include "storage/commit_queue.h"
@@ -22,7 +22,7 @@ namespace homing::server {
 struct RecordingAnswer {
   // Absent in the first answer.
   std::optional<std::int64_t> sequence;
-  // First that is not durable.
+  // The first sequence that is not committed.
   std::int64_t next_sequence = 0;
   // What to send again after a broken link, before next_sequence: for frames, the reference.
   std::int64_t resend_from = 0;
@@ -33,36 +33,40 @@ struct RecordingAnswer {
   std::optional<std::int64_t> frame;
 };
 
-// Who is told; calls come one at a time, from those who record and after commits, and must not call
-// back into the session. After `end` nothing comes.
+// Receives answers and the end, one call at a time, from recording threads and after commits. It
+// must not call the session. Nothing follows `end`.
 struct RecordingListener {
   std::function<void(RecordingAnswer)> answer;
   std::function<void(absl::Status)> end;
 };
 
-// What a session works with; all outlive it.
+// Shared objects; all must outlive the session.
 struct RecordingContext {
   JourneyCatalog* catalog = nullptr;
   storage::CommitQueue* queue = nullptr;
   DecodeLimits limits;
 };
 
-// Observations are numbered by the client. One that is durable already is accepted and stores
-// nothing; the reference frame, `resend_from`, rebuilds the state of tracking. A gap is
-// OUT_OF_RANGE and names the expected number. With frames, a stream that goes on at next_sequence
-// without the reference has a gap, unless the observation is marked as a break. Those between the
-// two made no step: they need not be sent again. Record is for one thread at a time.
+// The client numbers its observations. A committed one is accepted again and stores nothing; the
+// reference frame, `resend_from`, rebuilds the tracker's state. A gap is OUT_OF_RANGE with the
+// expected number. With frames, a stream that starts at next_sequence without the reference has a
+// gap, unless the observation is marked as a break. The ones between the two made no step, so they
+// need not be sent again. One thread at a time may call Record.
 class RecordingSession : public std::enable_shared_from_this<RecordingSession> {
  public:
-  // Claims the journey; the first answer is given before this returns. INVALID_ARGUMENT (name,
-  // writer_id), and as JourneyCatalog::Claim.
+  // Claims the journey and sends the first answer before it returns. INVALID_ARGUMENT (name,
+  // writer_id); errors of JourneyCatalog::Claim.
   static absl::StatusOr<std::shared_ptr<RecordingSession>> Open(const RecordingContext& context,
                                                                 const std::string& journey,
                                                                 const std::string& writer_id,
                                                                 TimePoint now,
                                                                 RecordingListener listener);
 
-  // One answer or the end comes of it, after those of the observations before.
+  ~RecordingSession();
+  RecordingSession(const RecordingSession&) = delete;
+  RecordingSession& operator=(const RecordingSession&) = delete;
+
+  // Leads to one answer or the end, after the answers to earlier observations.
   void Record(const Observation& observation, TimePoint now);
   // Ends the session with `status` after the answers to the observations before.
   void Reject(const absl::Status& status);
@@ -83,7 +87,7 @@ class RecordingSession : public std::enable_shared_from_this<RecordingSession> {
   absl::Status Commit(storage::JourneyAppend append, RecordingAnswer answer, std::int64_t slot);
   std::int64_t OpenSlot();
   void Complete(std::int64_t slot, const absl::Status& status, RecordingAnswer answer);
-  void Deliver(Slot slot);
+  void Deliver(Slot slot) HOMING_REQUIRES(mutex_);
   void End(const absl::Status& status);
   bool ended();
 
@@ -91,20 +95,19 @@ class RecordingSession : public std::enable_shared_from_this<RecordingSession> {
   WriterClaim claim_;
   std::optional<JourneyRecorder> recorder_;
   InputKind kind_ = InputKind::kUnknown;
-  // Next to feed to the recorder, and next to make durable; the first is the reference until that
-  // was sent again.
+  // Next for the recorder, and next to commit; the first is the reference until it was sent again.
   std::int64_t due_ = 0;
   std::int64_t next_ = 0;
 
-  std::mutex mutex_;
+  Mutex mutex_;
   const RecordingListener listener_;
-  // Answers in the order of the observations; those of repeats wait for the commits before.
-  std::deque<Slot> slots_;
-  std::int64_t first_slot_ = 0;
-  // As of the last answer delivered.
-  std::int64_t durable_next_ = 0;
-  std::int64_t durable_resend_from_ = 0;
-  bool ended_ = false;
+  // Answers in the order of the observations. An answer to a repeat waits for earlier commits.
+  std::deque<Slot> slots_ HOMING_GUARDED_BY(mutex_);
+  std::int64_t first_slot_ HOMING_GUARDED_BY(mutex_) = 0;
+  // As in the last answer sent.
+  std::int64_t durable_next_ HOMING_GUARDED_BY(mutex_) = 0;
+  std::int64_t durable_resend_from_ HOMING_GUARDED_BY(mutex_) = 0;
+  bool ended_ HOMING_GUARDED_BY(mutex_) = false;
 };
 
 }  // namespace homing::server

@@ -1,4 +1,4 @@
-// docs/results.md, and a line for each bound. Source: own design.
+// docs/results.md, and a line for each bound.
 #ifndef TESTS_ACCURACY_REPORT_H_
 #define TESTS_ACCURACY_REPORT_H_
 

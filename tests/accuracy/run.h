@@ -1,4 +1,4 @@
-// One way home on one or more recorded drives, and what each method answered. Source: own design.
+// One way home on one or more recorded drives, and what each method answered.
 #ifndef TESTS_ACCURACY_RUN_H_
 #define TESTS_ACCURACY_RUN_H_
 

@@ -1,4 +1,4 @@
-// How good answers are. Source: own design; the figures are the field's usual ones.
+// Scores of answers, by the field's usual measures.
 #ifndef TESTS_ACCURACY_SCORES_H_
 #define TESTS_ACCURACY_SCORES_H_
 

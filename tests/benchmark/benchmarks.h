@@ -1,4 +1,4 @@
-// All that is measured. Source: own design.
+// All that is measured.
 #ifndef TESTS_BENCHMARK_BENCHMARKS_H_
 #define TESTS_BENCHMARK_BENCHMARKS_H_
 

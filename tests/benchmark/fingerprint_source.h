@@ -1,4 +1,4 @@
-// Fingerprints of many journeys, made up. Source: own design.
+// Fingerprints of many journeys, made up.
 #ifndef TESTS_BENCHMARK_FINGERPRINT_SOURCE_H_
 #define TESTS_BENCHMARK_FINGERPRINT_SOURCE_H_
 

@@ -2,7 +2,8 @@
 // usage: homing_benchmark [--quick] [--report FILE] [--load FILE] [--command TEXT] [--filter REGEX]
 // or: homing_benchmark --copy-journeys DATABASE NUMBER
 // or: homing_benchmark --echo    an echo for load clients, until it is killed
-// --load names a file of lines "RUN COUNTER VALUE", one a repetition: what load clients measured.
+// --load names a file of lines "RUN COUNTER VALUE", one a repetition, with the results of load
+// clients.
 #include <benchmark/benchmark.h>
 #include <sqlite3.h>
 #include <unistd.h>
@@ -55,7 +56,7 @@ bool Parse(int argc, char** argv, Arguments& arguments) {
   return true;
 }
 
-// Interleaved: what is compared is measured in the same minutes.
+// Interleaved: values that are compared are measured in the same minutes.
 void InitializeBenchmark(const Arguments& arguments) {
   std::vector<std::string> words = {
       "homing_benchmark", "--benchmark_enable_random_interleaving=true",

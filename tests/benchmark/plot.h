@@ -1,4 +1,4 @@
-// A plot of cost against size, both axes logarithmic, as SVG. Source: own design.
+// A plot of cost against size, both axes logarithmic, as SVG.
 #ifndef TESTS_BENCHMARK_PLOT_H_
 #define TESTS_BENCHMARK_PLOT_H_
 

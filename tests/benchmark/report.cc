@@ -54,7 +54,7 @@ std::string RowTable(const std::vector<Row>& rows) {
   return text;
 }
 
-// What load clients saw, an echo's included: what is left of the machine when nothing is computed
+// The results of load clients, also of an echo: the limit of the machine when nothing is computed
 // or stored.
 std::string LoadTable(const Results& results) {
   std::string text =

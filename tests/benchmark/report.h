@@ -1,4 +1,4 @@
-// docs/performance.md and its pictures. Source: own design.
+// docs/performance.md and its pictures.
 #ifndef TESTS_BENCHMARK_REPORT_H_
 #define TESTS_BENCHMARK_REPORT_H_
 

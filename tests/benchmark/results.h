@@ -1,4 +1,4 @@
-// What the benchmarks measured: one number a repetition, by name. Source: own design.
+// The results of the benchmarks: one number a repetition, by name.
 #ifndef TESTS_BENCHMARK_RESULTS_H_
 #define TESTS_BENCHMARK_RESULTS_H_
 
@@ -28,7 +28,7 @@ class Results {
   std::map<std::string, Series> series_;
 };
 
-// Prints what Google Benchmark prints, and keeps it.
+// Prints and keeps the results of Google Benchmark.
 class KeepingReporter : public benchmark::ConsoleReporter {
  public:
   // `results` must outlive it.

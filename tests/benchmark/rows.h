@@ -1,5 +1,5 @@
 // The bounds that must hold, each judged by a bootstrap interval over its repetitions.
-// Source: own design; the interval after Efron, "Bootstrap methods", 1979.
+// The interval after Efron, "Bootstrap methods", 1979.
 #ifndef TESTS_BENCHMARK_ROWS_H_
 #define TESTS_BENCHMARK_ROWS_H_
 
@@ -14,7 +14,7 @@ enum class Verdict { kOk, kShort, kUnsure };
 
 struct Row {
   std::string name;
-  // What was compared with what, for the report.
+  // A description of the two compared values, for the report.
   std::string meaning;
   // Median, and the ends of its 95 % interval.
   double value = 0;
@@ -36,7 +36,7 @@ Row Judge(Row row, const std::vector<double>& values);
 // a[i] / b[i], as far as both go.
 std::vector<double> Quotients(const std::vector<double>& a, const std::vector<double>& b);
 
-// The rows that these results allow; what was not measured has none.
+// The rows for these results; values that were not measured have no row.
 std::vector<Row> AllRows(const Results& results);
 
 }  // namespace homing::benchmarks

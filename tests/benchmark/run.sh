@@ -1,5 +1,5 @@
 #!/bin/sh
-# Measures what must be fast, side by side with what it is compared with; prints a line for each bound
+# Measures speed beside other programs; prints a line for each bound
 # (name value bound ok|short|unsure) and writes docs/performance.md. Exits 1 if any is short.
 # usage: tests/benchmark/run.sh [--quick]    smaller sizes and fewer robots, no report in docs/
 # HOMING_BUILD names a build with homing-server, homing-bench and homing_benchmark (default: build/dev, built if

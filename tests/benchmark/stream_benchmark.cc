@@ -25,7 +25,7 @@ namespace {
 constexpr int kFrames = 120;
 constexpr int kFlows = 4000;
 constexpr int kVectors = 200;
-// Most sent and not yet acknowledged: what the client library keeps.
+// Most observations sent and not yet acknowledged, as in the client library.
 constexpr int kWindow = 256;
 const cv::Size kSize(640, 480);
 
@@ -97,7 +97,7 @@ bool Create(const std::string& address, const std::string& robot, const std::str
   return stub->CreateJourney(&context, request, &created).ok();
 }
 
-// All streams at once, each to a journey of its own, until the last observation is durable.
+// All streams at once, each to its own journey, until the last observation is durable.
 void RunStreams(benchmark::State& state, const StreamServer* server, const Requests& requests,
                 bool create) {
   static int runs = 0;
@@ -147,7 +147,7 @@ void FlowOverGrpc(benchmark::State& state) {
   RunStreams(state, server.get(), FlowRequests(), true);
 }
 
-// What one observation costs before it is sent anywhere, one thread.
+// The cost of one observation before it is sent, in one thread.
 void FlowWithoutNetwork(benchmark::State& state) {
   std::vector<Observation> observations;
   for (int i = 0; i < kFlows; ++i) observations.push_back(FlowObservation(i, kVectors));

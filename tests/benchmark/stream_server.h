@@ -1,4 +1,4 @@
-// Servers to stream to: the real one, and one that only echoes. Source: own design.
+// Servers to stream to: the real one, and one that only echoes.
 #ifndef TESTS_BENCHMARK_STREAM_SERVER_H_
 #define TESTS_BENCHMARK_STREAM_SERVER_H_
 
@@ -7,14 +7,14 @@
 
 namespace homing::benchmarks {
 
-// Listens on a loopback port of its own until it is destroyed.
+// Listens on its own loopback port until it is destroyed.
 class StreamServer {
  public:
   virtual ~StreamServer() = default;
   virtual std::string address() const = 0;
 };
 
-// A homing-server with a database of its own. Null: it did not start.
+// A homing-server with its own database. Null: it did not start.
 std::unique_ptr<StreamServer> StartHomingServer();
 
 // Answers each RecordJourney observation by its number: the same reactor, threads, strands and

@@ -1,4 +1,4 @@
-// Frames past a textured wall, the same at every run. Source: own design.
+// Frames past a textured wall, the same at every run.
 #ifndef TESTS_BENCHMARK_TEXTURED_DRIVE_H_
 #define TESTS_BENCHMARK_TEXTURED_DRIVE_H_
 

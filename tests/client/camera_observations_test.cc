@@ -11,9 +11,19 @@ using ::testing::HasSubstr;
 
 constexpr char kScene[] = "sim:street,length=4,fps=2";
 
-CameraObservations Open(const std::string& left, const std::string& right, bool flow) {
-  auto cameras = OpenCameras(left, right);
-  return {*std::move(cameras), flow ? std::make_optional(FlowOptions()) : std::nullopt};
+std::optional<FlowOptions> FlowIf(bool flow) {
+  return flow ? std::make_optional(FlowOptions()) : std::nullopt;
+}
+
+CameraObservations Over(Cameras cameras, bool flow, const FrameChoice& choice = {}) {
+  auto instants = CameraInstants::Create(std::move(cameras), choice);
+  EXPECT_THAT(instants, IsOk());
+  return CameraObservations(*std::move(instants), FlowIf(flow));
+}
+
+CameraObservations Open(const std::string& left, const std::string& right, bool flow,
+                        const FrameChoice& choice = {}) {
+  return Over(*OpenCameras(left, right), flow, choice);
 }
 
 std::vector<std::string> All(CameraObservations& observations) {
@@ -39,6 +49,7 @@ class LiveCamera : public FrameSource {
     return std::make_optional(std::move(frame));
   }
   bool Seek(std::int64_t) override { return false; }
+  bool live() const override { return true; }
 
  private:
   unsigned state_ = 1;
@@ -125,12 +136,11 @@ TEST(CameraObservationsTest, SeekBeyondTheEndGivesNothing) {
   EXPECT_FALSE(next->has_value());
 }
 
-TEST(CameraObservationsTest, ALiveCameraGoesOnWithABreak) {
+TEST(CameraObservationsTest, ALiveCameraContinuesWithABreak) {
   for (const bool send_flow : {false, true}) {
     Cameras cameras;
     cameras[0] = std::make_unique<LiveCamera>();
-    CameraObservations observations(std::move(cameras),
-                                    send_flow ? std::make_optional(FlowOptions()) : std::nullopt);
+    CameraObservations observations = Over(std::move(cameras), send_flow);
     EXPECT_EQ(observations.size(), -1);
     EXPECT_FALSE(observations.Seek(0));
     observations.ContinueAt(17);
@@ -142,6 +152,19 @@ TEST(CameraObservationsTest, ALiveCameraGoesOnWithABreak) {
     EXPECT_EQ((*first)->capture_time().nanos(), 7);
     EXPECT_EQ((*second)->sequence(), 18);
     EXPECT_FALSE((*second)->break_before());
+  }
+}
+
+TEST(CameraObservationsTest, AStopEndsALiveCamera) {
+  std::stop_source stop;
+  FrameChoice choice;
+  choice.stop = stop.get_token();
+  Cameras cameras;
+  cameras[0] = std::make_unique<LiveCamera>();
+  auto observations = Over(std::move(cameras), false, choice);
+  EXPECT_TRUE(observations.Next()->has_value());
+  stop.request_stop();
+  while (observations.Next()->has_value()) {
   }
 }
 

@@ -125,6 +125,25 @@ TEST(ConnectionTest, RetriesUntilTheCallSucceeds) {
   EXPECT_EQ(calls, 3);
 }
 
+TEST(ConnectionTest, WaitsOneStepOfTheBackoffBeforeEachAttempt) {
+  // A connection that is ready: else each attempt waits for the server as well.
+  FakeJourneyService service({});
+  FakeServer server(&service);
+  ConnectionOptions options;
+  options.address = server.address();
+  const auto connection = Connection::Open(options);
+  ASSERT_THAT(connection, IsOk());
+  ASSERT_THAT(connection->WaitForServer(), IsOk());
+  int calls = 0;
+  const auto begin = std::chrono::steady_clock::now();
+  EXPECT_THAT(
+      connection->Retry(
+          {}, [&] { return ++calls < 4 ? absl::UnavailableError("draining") : absl::OkStatus(); }),
+      IsOk());
+  // 100 + 170 + 289 ms at most. Two steps an attempt would take 1.4 s at least.
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::milliseconds(1300));
+}
+
 TEST(ConnectionTest, DoesNotRetryOtherErrors) {
   const auto connection = Connection::Open({});
   ASSERT_THAT(connection, IsOk());
@@ -145,7 +164,7 @@ TEST(RpcStatusTest, ReadsTheDelayTheServerNames) {
   EXPECT_TRUE(IsRetriable(status));
 }
 
-TEST(RpcStatusTest, WhatAServerCancelsAsItShutsDownIsRetried) {
+TEST(RpcStatusTest, ACallCancelledByAStoppingServerIsRetried) {
   EXPECT_TRUE(IsRetriable(FromGrpc({grpc::StatusCode::CANCELLED, "CANCELLED"})));
   EXPECT_FALSE(IsRetriable(absl::CancelledError("by a callback")));
 }

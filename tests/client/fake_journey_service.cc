@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include "homing/base/mutex.h"
+
 namespace homing::client {
 namespace {
 
@@ -13,7 +15,7 @@ const grpc::Status kLinkBroken(grpc::StatusCode::UNAVAILABLE, "link broken by th
 }  // namespace
 
 int FakeJourneyService::BeginLink() {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   return links_++;
 }
 
@@ -23,7 +25,7 @@ int FakeJourneyService::BreakAfter(int link) const {
 }
 
 bool FakeJourneyService::Store(const v1::Observation& observation) {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   received_.push_back(observation.sequence());
   const auto next = static_cast<std::int64_t>(stored_.size());
   if (observation.sequence() > next) return false;
@@ -89,17 +91,17 @@ grpc::Status FakeJourneyService::Localize(
 }
 
 std::vector<v1::Observation> FakeJourneyService::stored() const {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   return stored_;
 }
 
 int FakeJourneyService::links() const {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   return links_;
 }
 
 std::vector<std::int64_t> FakeJourneyService::received() const {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   return received_;
 }
 

@@ -1,15 +1,14 @@
-// A server that keeps the durable contract of RecordJourney and breaks the link where it is told
-// to.
+// A server that keeps the durable contract of RecordJourney and breaks links as `Faults` says.
 #ifndef TESTS_CLIENT_FAKE_JOURNEY_SERVICE_H_
 #define TESTS_CLIENT_FAKE_JOURNEY_SERVICE_H_
 
 #include <grpcpp/server.h>
 
 #include <memory>
-#include <mutex>
 #include <string>
 #include <vector>
 
+#include "homing/base/mutex.h"
 #include "homing/v1/homing_service.grpc.pb.h"
 #include "homing/v1/journey_service.grpc.pb.h"
 
@@ -40,7 +39,7 @@ class FakeJourneyService : public v1::JourneyService::Service, public v1::Homing
       grpc::ServerContext* context,
       grpc::ServerReaderWriter<v1::LocalizeResponse, v1::LocalizeRequest>* stream) override;
 
-  // What is durable, in the order stored.
+  // The durable observations, in the order stored.
   std::vector<v1::Observation> stored() const;
   // Links begun.
   int links() const;
@@ -58,7 +57,7 @@ class FakeJourneyService : public v1::JourneyService::Service, public v1::Homing
   void Answer(RecordStream* stream, std::int64_t sequence);
 
   Faults faults_;
-  mutable std::mutex mutex_;
+  mutable Mutex mutex_;
   int links_ = 0;
   std::vector<v1::Observation> stored_;
   std::vector<std::int64_t> received_;

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "client/image_names.h"
 #include "client/png_file.h"
 #include "homing/image/frame.h"
 #include "tests/support/status_matchers.h"
@@ -34,7 +35,7 @@ class ImageFolderTest : public ::testing::Test {
     const auto paths = ListImages(source);
     EXPECT_THAT(paths, IsOk());
     if (!paths.ok()) return names;
-    for (const std::string& path : *paths) {
+    for (const std::string& path : paths->paths) {
       names.push_back(std::filesystem::path(path).filename().string());
     }
     return names;
@@ -132,7 +133,60 @@ TEST_F(ImageFolderTest, SeekGoesToAnyFrame) {
   EXPECT_FALSE(source->Seek(4));
 }
 
-TEST_F(ImageFolderTest, OpenFrameSourceSaysWhatIsWrong) {
+TEST_F(ImageFolderTest, BadFilesAreFramesWithAFault) {
+  for (const int i : {0, 6}) {
+    ASSERT_THAT(WritePng(Path(std::to_string(i) + ".png"), Gray(i)), IsOk());
+  }
+  std::ifstream whole(Path("0.png"), std::ios::binary);
+  std::string bytes((std::istreambuf_iterator<char>(whole)), std::istreambuf_iterator<char>());
+  Write("1.png", "");
+  Write("2.png", bytes.substr(0, bytes.size() / 2));
+  Write("3.jpg", "\xff\xd8 and nothing more");
+  std::filesystem::create_symlink(Path("nowhere"), Path("4.png"));
+  SourceFrame large{FrameEncoding::kGray8, 60, 40, std::string(60 * 40, 'x')};
+  ASSERT_THAT(WritePng(Path("5.png"), large), IsOk());
+  Write("._0.png", "what macOS leaves");
+  Write("7.heic", "a phone's");
+  const auto source = MakeImageFolder(*ListImages(folder_.string()));
+  ASSERT_EQ(source->size(), 7);
+  const std::vector<std::string> faults = {"",
+                                           "1.png is empty",
+                                           "2.png is damaged",
+                                           "3.jpg is damaged",
+                                           "4.png: No such file",
+                                           "5.png is 60 x 40 pixels, the first image 30 x 20",
+                                           ""};
+  for (const std::string& fault : faults) {
+    const auto frame = source->Next();
+    ASSERT_THAT(frame, IsOk());
+    ASSERT_TRUE(frame->has_value());
+    EXPECT_THAT((*frame)->fault, HasSubstr(fault));
+    EXPECT_EQ((*frame)->fault.empty(), fault.empty());
+  }
+  EXPECT_FALSE(source->Next()->has_value());
+  EXPECT_THAT(source->remark(), HasSubstr("1 hidden files"));
+  EXPECT_THAT(source->remark(), HasSubstr("1 files of a kind"));
+}
+
+TEST_F(ImageFolderTest, AnImageIsNoVideo) {
+  ASSERT_THAT(WritePng(Path("0.png"), Gray(0)), IsOk());
+  EXPECT_THAT(OpenFrameSource(Path("0.png"), Side::kLeft),
+              StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("is one image")));
+}
+
+#ifdef HOMING_OPENCV_READERS
+TEST_F(ImageFolderTest, TextsAreNoVideos) {
+  for (const char* name : {"list.txt", "film.nfo", "frames.csv", "noending"}) {
+    std::string text;
+    for (int i = 0; i < 90; ++i) text += "/data/left/" + std::to_string(i) + ".png\n";
+    Write(name, text);
+    EXPECT_THAT(OpenFrameSource(Path(name), Side::kLeft),
+                StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr(name)));
+  }
+}
+#endif
+
+TEST_F(ImageFolderTest, OpenFrameSourceNamesTheProblem) {
   EXPECT_THAT(OpenFrameSource("", Side::kLeft),
               StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("empty")));
   EXPECT_THAT(OpenFrameSource("sim:nowhere", Side::kLeft),

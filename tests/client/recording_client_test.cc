@@ -94,7 +94,7 @@ TEST_F(RecordingClientTest, StoresEachOnceWhereverTheLinkBreaks) {
   }
 }
 
-TEST_F(RecordingClientTest, GoesOnOverManyBrokenLinks) {
+TEST_F(RecordingClientTest, ResumesAfterManyBrokenLinks) {
   Faults faults;
   faults.break_after_received = {3, 0, 1, 7, 0, 9, 2, 5};
   faults.unanswered_at_break = 2;
@@ -175,7 +175,7 @@ TEST_F(RecordingClientTest, ResumesWhereAnEarlierClientStopped) {
   EXPECT_EQ(Stored(service), Range(20));
 }
 
-TEST_F(RecordingClientTest, GoesOnWhenTheServerIsRestarted) {
+TEST_F(RecordingClientTest, ResumesWhenTheServerIsRestarted) {
   FakeJourneyService service({});
   auto server = std::make_unique<FakeServer>(&service);
   const int port = server->port();
@@ -209,7 +209,7 @@ TEST_F(RecordingClientTest, ALiveCameraMarksABreakWhenItResumes) {
   EXPECT_TRUE(service.stored()[5].break_before());
 }
 
-TEST_F(RecordingClientTest, ALiveCameraResendsWhatIsKeptWithoutABreak) {
+TEST_F(RecordingClientTest, ALiveCameraResendsKeptObservationsWithoutABreak) {
   Faults faults;
   faults.break_after_received = {6};
   faults.unanswered_at_break = 3;
@@ -221,7 +221,7 @@ TEST_F(RecordingClientTest, ALiveCameraResendsWhatIsKeptWithoutABreak) {
   EXPECT_EQ(Breaks(service), 0);
 }
 
-TEST_F(RecordingClientTest, DoesNotRepeatWhatAnotherAttemptCannotCure) {
+TEST_F(RecordingClientTest, DoesNotRetryErrorsThatARetryCannotCure) {
   Faults faults;
   faults.refuse = grpc::Status(grpc::StatusCode::ABORTED, "another writer");
   FakeJourneyService service(faults);
@@ -232,7 +232,7 @@ TEST_F(RecordingClientTest, DoesNotRepeatWhatAnotherAttemptCannotCure) {
   EXPECT_EQ(service.links(), 1);
 }
 
-TEST_F(RecordingClientTest, StopsWhenToldAndKeepsWhatIsDurable) {
+TEST_F(RecordingClientTest, StopsOnRequestAndKeepsDurableObservations) {
   FakeJourneyService service({});
   FakeServer server(&service);
   NumberedStream stream(1000000);

@@ -53,7 +53,7 @@ TEST(ResendBufferTest, ALiveStreamIsMarkedWhereTheKeptOnesBegin) {
   EXPECT_TRUE((*next)->break_before());
 }
 
-TEST(ResendBufferTest, ALiveStreamThatLostWhatIsDueSaysSo) {
+TEST(ResendBufferTest, ALiveStreamThatLostTheExpectedObservationReportsIt) {
   NumberedStream stream(20, /*live=*/true);
   ResendBuffer buffer(&stream, 2);
   Send(buffer, 10);
@@ -98,7 +98,7 @@ TEST(ResendBufferTest, WhatIsBeingSentAgainIsNotDropped) {
   EXPECT_EQ(NextSequence(buffer), 4);
 }
 
-TEST(ResendBufferTest, KeepsNoMoreThanItIsTold) {
+TEST(ResendBufferTest, KeepsNoMoreThanConfigured) {
   NumberedStream stream(1000);
   ResendBuffer buffer(&stream, 4);
   Send(buffer, 1000);

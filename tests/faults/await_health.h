@@ -13,7 +13,7 @@ namespace homing::faults {
 // False: not within half a minute.
 inline bool AwaitHealth(const std::string& address, bool serving) {
   for (int i = 0; i < 300; ++i) {
-    if (server::CheckHealth(address, "").ok() == serving) return true;
+    if (server::CheckHealth(address).ok() == serving) return true;
     std::this_thread::sleep_for(std::chrono::milliseconds(100));
   }
   return false;

@@ -41,7 +41,7 @@ std::string Garbage(std::mt19937* random) {
   return bytes;
 }
 
-// Begins a journey's recording that does not exist, then sends what no observation is.
+// Starts to record a journey that does not exist, then sends bytes that are no observation.
 void RecordNonsense(const std::shared_ptr<grpc::Channel>& channel) {
   grpc::ClientContext context;
   const auto stream = v1::JourneyService::NewStub(channel)->RecordJourney(&context);

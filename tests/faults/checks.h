@@ -1,4 +1,4 @@
-// What tests/faults/run.sh measures, each into its lines.
+// The checks of tests/faults/run.sh; each writes its lines.
 #ifndef TESTS_FAULTS_CHECKS_H_
 #define TESTS_FAULTS_CHECKS_H_
 
@@ -15,9 +15,9 @@ struct Programs {
   std::string faulty_disk;
 };
 
-// `kills` times the server dies while 8 robots record; each time the database is compared with what
-// was acknowledged, at the end all maps with those of undisturbed runs. `power`: not the process
-// alone dies, the disk also forgets what was not synced.
+// Kills the server `kills` times while 8 robots record. Compares the database with the acknowledged
+// observations each time, and at the end all maps with those of undisturbed runs. `power`: the disk
+// also loses unsynced data.
 void CheckKills(const Programs& programs, int kills, bool power, std::uint64_t seed,
                 Figures* figures);
 

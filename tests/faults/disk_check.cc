@@ -23,11 +23,11 @@ struct Trouble {
   std::string name;
   std::function<void()> begin;
   std::function<void()> end;
-  // What a client that does not wait is told.
+  // The error of a client that does not wait.
   absl::StatusCode code = absl::StatusCode::kUnavailable;
 };
 
-// A server, robots that record on it, and what must be seen before, in and after a trouble.
+// A server with recording robots, and the checks before, during and after a fault.
 class Trial {
  public:
   Trial(const Programs& programs, std::string folder, std::string control, Figures* figures)

@@ -1,4 +1,4 @@
-// The record of what a program asked its disk to do, written by faulty_disk.cc and read by
+// The record of a program's requests to its disk, written by faulty_disk.cc and read by
 // power_cut.cc: a header, the file's name, then `size` bytes if it is a write.
 #ifndef TESTS_FAULTS_DISK_LOG_H_
 #define TESTS_FAULTS_DISK_LOG_H_

@@ -1,4 +1,4 @@
-// Lines "name figure bound ok|short": what was asked for, and whether it was found.
+// Lines "name figure bound ok|short": a bound and the measured figure.
 #ifndef TESTS_FAULTS_FIGURES_H_
 #define TESTS_FAULTS_FIGURES_H_
 
@@ -17,7 +17,7 @@ class Figures {
   void AtLeast(const std::string& name, double figure, double bound) {
     Tell(name, figure, ">=", bound, figure >= bound);
   }
-  // What has no figure: `held` or not.
+  // A check without a figure: `held` or not.
   void Holds(const std::string& name, bool held) { AtLeast(name, held ? 1 : 0, 1); }
   // A part that could not be done.
   void Failed(const std::string& name, const std::string& why) {

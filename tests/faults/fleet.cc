@@ -3,6 +3,7 @@
 #include <iostream>
 
 #include "absl/strings/str_cat.h"
+#include "homing/base/mutex.h"
 
 namespace homing::faults {
 namespace {
@@ -26,7 +27,7 @@ void Fleet::Run(RobotOptions options) {
     const std::string journey = JourneyOf(options.robot, number);
     const absl::Status status = RecordOne(options, journey, ledger_);
     if (!status.ok()) {
-      const std::lock_guard lock(mutex_);
+      const MutexLock lock(mutex_);
       if (error_.empty()) error_ = absl::StrCat(journey, ": ", status.ToString());
       return;
     }
@@ -49,7 +50,7 @@ bool Fleet::AwaitProgress() const {
 }
 
 std::string Fleet::error() const {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   return error_;
 }
 

@@ -1,14 +1,14 @@
-// Robots, a thread each, that record one journey after the other until told to stop.
+// Robots, a thread each, that record one journey after another until stopped.
 #ifndef TESTS_FAULTS_FLEET_H_
 #define TESTS_FAULTS_FLEET_H_
 
 #include <atomic>
 #include <map>
-#include <mutex>
 #include <string>
 #include <thread>
 #include <vector>
 
+#include "homing/base/mutex.h"
 #include "tests/faults/figures.h"
 #include "tests/faults/ledger.h"
 #include "tests/faults/robot.h"
@@ -33,7 +33,7 @@ class Fleet {
 
   Ledger* const ledger_;
   std::atomic<bool> stopping_ = false;
-  mutable std::mutex mutex_;
+  mutable Mutex mutex_;
   std::string error_;
   std::vector<std::thread> threads_;
 };

@@ -35,11 +35,11 @@ class Killer {
                           "FAULTY_DISK_SYNC_MS=5"});
   }
 
-  // Dies, and is compared with what was acknowledged.
+  // Kills the server and compares its database with the acknowledged observations.
   absl::Status Kill(const Ledger& ledger) {
     server_.Kill();
     if (power_) Forget();
-    // What the server sent before it died arrives; nothing else can.
+    // Answers that the server sent before it died still arrive; no others can.
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
     const std::string copy = folder_.File("copy");
     WriteFiles(copy, ReadFiles(server_.folder()));

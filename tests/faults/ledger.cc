@@ -2,34 +2,35 @@
 
 #include <algorithm>
 
+#include "homing/base/mutex.h"
 #include "homing/base/status_macros.h"
 #include "storage/journey_store.h"
 
 namespace homing::faults {
 
 void Ledger::Created(const std::string& journey, bool frames) {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   entries_[journey].frames = frames;
 }
 
 void Ledger::Advanced(const std::string& journey, std::int64_t next_sequence) {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   std::int64_t& known = entries_[journey].next_sequence;
   known = std::max(known, next_sequence);
 }
 
 void Ledger::Finished(const std::string& journey) {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   entries_[journey].finished = true;
 }
 
 void Ledger::Deleted(const std::string& journey) {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   entries_.erase(journey);
 }
 
 std::map<std::string, Acknowledged> Ledger::entries() const {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   return entries_;
 }
 

@@ -1,13 +1,13 @@
-// What the server has acknowledged, as its clients saw it.
+// The observations that the server acknowledged, as its clients saw them.
 #ifndef TESTS_FAULTS_LEDGER_H_
 #define TESTS_FAULTS_LEDGER_H_
 
 #include <cstdint>
 #include <map>
-#include <mutex>
 #include <string>
 
 #include "absl/status/statusor.h"
+#include "homing/base/mutex.h"
 
 namespace homing::faults {
 
@@ -38,11 +38,11 @@ class Ledger {
   std::map<std::string, Acknowledged> entries() const;
 
  private:
-  mutable std::mutex mutex_;
+  mutable Mutex mutex_;
   std::map<std::string, Acknowledged> entries_;
 };
 
-// Compares a database (the files of a server that is dead) with what was acknowledged. Opens it as
+// Compares a database (the files of a dead server) with the acknowledged observations. Opens it as
 // a server would, which changes it.
 absl::StatusOr<LedgerCheck> CheckDatabase(const std::string& url,
                                           const std::map<std::string, Acknowledged>& entries);

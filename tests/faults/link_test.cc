@@ -62,7 +62,7 @@ INSTANTIATE_TEST_SUITE_P(Sent, CutTest, ::testing::Values(0, 1), [](const auto& 
   return sent.param == 0 ? std::string("flow") : std::string("frames");
 });
 
-// The first connection breaks after so many bytes; the client goes on with another.
+// The first connection breaks after this many bytes; the client continues on another.
 TEST_P(CutTest, AtAnyByteTheMapIsTheSame) {
   robot_.robot = GetParam();
   const std::string expected = Undisturbed();
@@ -136,7 +136,7 @@ TEST_F(LinkTest, BehindAHalfOpenLinkAnotherWriterWaitsForTheLease) {
   link_.CutAll();
 }
 
-TEST_F(LinkTest, AClientThatCrawlsHoldsUpNobody) {
+TEST_F(LinkTest, AVerySlowClientDelaysNoOther) {
   link_.SetBytesPerSecond(20'000);
   std::thread crawling([&] {
     RobotOptions slow = robot_;
@@ -148,8 +148,8 @@ TEST_F(LinkTest, AClientThatCrawlsHoldsUpNobody) {
   crawling.join();
 }
 
-// It asks and asks; what it does not read holds it back, and no one else.
-TEST_F(LinkTest, AClientThatNeverReadsIsHeldBackAndHoldsUpNobody) {
+// A client that sends requests and reads no answers blocks itself, and no other client.
+TEST_F(LinkTest, AClientThatNeverReadsIsBlockedAndDelaysNoOther) {
   constexpr int kMost = 50'000;
   ASSERT_THAT(Create(), IsGrpcOk());
   RecordFlow(0, 20);
@@ -187,7 +187,7 @@ TEST_F(LinkTest, RepeatedAndReorderedRequestsStoreNothingTwice) {
     }
     recording.Send(test::FlowAt(6));
     EXPECT_THAT(recording.AwaitEnd(),
-                GrpcStatusIs(grpc::StatusCode::OUT_OF_RANGE, HasSubstr("5 is due")));
+                GrpcStatusIs(grpc::StatusCode::OUT_OF_RANGE, HasSubstr("must be 5")));
   }
   Recording recording(journeys_.get(), kJourney);
   for (int i = 0; i < 8; ++i) recording.Record(test::FlowAt(i));

@@ -1,4 +1,4 @@
-// What a disk may hold after the power went, told from the record of what it was asked to do.
+// The states of a disk after a power cut, computed from the record of its requests.
 #ifndef TESTS_FAULTS_POWER_CUT_H_
 #define TESTS_FAULTS_POWER_CUT_H_
 
@@ -17,10 +17,10 @@ struct PowerCut {
   int lost = 0;
 };
 
-// `before`: the files as the program found them, all on the disk. `log`: the record since. What was
-// synced is there. Of the writes since, in any order, some are there, some are not, and some in
-// part (by sectors of 512 bytes); the names are as after some number of the changes that were not
-// synced. By chance, from `seed`.
+// `before`: the files when the program started, all of them durable. `log`: the record since.
+// Synced data is there. Of the later writes, in any order, some are there, some are not, and some
+// in part (by sectors of 512 bytes). Names are as after some number of the unsynced changes.
+// Random, from `seed`.
 PowerCut CutPower(const std::map<std::string, std::string>& before, const std::string& log,
                   std::uint64_t seed);
 

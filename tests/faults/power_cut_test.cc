@@ -1,4 +1,4 @@
-// The layers themselves: a disk that forgets must lose what was not synced, and nothing else.
+// Tests the simulated disk: it must lose unsynced data, and nothing else.
 #include "tests/faults/power_cut.h"
 
 #include <gmock/gmock.h>
@@ -39,7 +39,7 @@ class PowerCutTest : public ::testing::Test {
     return std::stoi(probe.lines().back());
   }
 
-  // What an SQLite that starts after the cut finds; -1: it is damaged.
+  // The value that SQLite finds after the cut; -1: the file is damaged.
   int NumbersAfterCut(std::uint64_t seed) {
     std::ifstream file(log_, std::ios::binary);
     std::ostringstream log;

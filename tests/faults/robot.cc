@@ -1,7 +1,6 @@
 #include "tests/faults/robot.h"
 
 #include <deque>
-#include <mutex>
 #include <sstream>
 #include <thread>
 
@@ -9,6 +8,7 @@
 #include "client/homing_client.h"
 #include "client/journey_client.h"
 #include "client/recording_client.h"
+#include "homing/base/mutex.h"
 #include "homing/base/status_macros.h"
 #include "proto/wire/observation_conversion.h"
 #include "tests/support/route.h"
@@ -59,7 +59,7 @@ class Timed final : public client::ObservationStream {
   absl::StatusOr<std::optional<v1::Observation>> Next() override {
     auto next = stream_->Next();
     if (next.ok() && *next) {
-      const std::lock_guard lock(mutex_);
+      const MutexLock lock(mutex_);
       taken_[(*next)->sequence()] = Clock::now();
     }
     return next;
@@ -69,7 +69,7 @@ class Timed final : public client::ObservationStream {
   void ContinueAt(std::int64_t sequence) override { stream_->ContinueAt(sequence); }
 
   std::chrono::microseconds Since(std::int64_t sequence) {
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     const auto since = Clock::now() - taken_[sequence];
     taken_.erase(taken_.begin(), taken_.upper_bound(sequence));
     return std::chrono::duration_cast<std::chrono::microseconds>(since);
@@ -77,7 +77,7 @@ class Timed final : public client::ObservationStream {
 
  private:
   std::unique_ptr<client::ObservationStream> stream_;
-  std::mutex mutex_;
+  Mutex mutex_;
   std::map<std::int64_t, Clock::time_point> taken_;
 };
 

@@ -18,7 +18,7 @@ namespace homing::faults {
 
 struct RobotOptions {
   std::string address;
-  // Its number. Each has a route of its own.
+  // The robot's number. Each has its own route.
   int robot = 0;
   // One in so many sends frames, the others flow vectors.
   int frames_every = 2;
@@ -35,7 +35,7 @@ struct RobotOptions {
 // The observations of a robot's route: the same each time.
 std::unique_ptr<client::ObservationStream> RouteOf(const RobotOptions& options);
 
-// Creates, records and finishes one journey, telling `ledger` what was acknowledged.
+// Creates, records and finishes one journey; reports acknowledged observations to `ledger`.
 absl::Status RecordOne(const RobotOptions& options, const std::string& journey, Ledger* ledger);
 
 // Localises on a journey along the robot's own route. OUT: the share of the answers that are MATCH.

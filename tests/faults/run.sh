@@ -1,5 +1,5 @@
 #!/bin/sh
-# What the server must live through, a line each: name figure bound ok|short. Exit code 1 if any is short.
+# The faults that the server must survive, a line each: name figure bound ok|short. Exit code 1 if any is short.
 # usage: sh tests/faults/run.sh [--quick] [--soak MINUTES] [--only kill|power|full|bad|leaks|soak] [--seed N]
 # Fuzzing has lines of the same form: sh tests/fuzz/run.sh.
 # HOMING_PRESET (default dev) names the CMake preset. As root the full disk is a real one, of 24 MiB.
@@ -21,8 +21,8 @@ if command -v valgrind >/dev/null; then
 else
   echo "# valgrind is not installed: leaks are not looked for"
 fi
-# Syncs to a file system in memory return at once, so that more happens in a minute. What a cut leaves, the
-# faulty disk decides.
+# Syncs to a file system in memory return at once, so that more runs fit into a minute. The faulty disk
+# decides which data a power cut leaves.
 [ -n "${TMPDIR:-}" ] || [ ! -w /dev/shm ] || export TMPDIR=/dev/shm
 status=0
 if command -v systemd-analyze >/dev/null; then
@@ -32,7 +32,7 @@ if command -v systemd-analyze >/dev/null; then
   echo "systemd_exposure ${exposure:-unknown} <=2.0 $verdict"
   [ "$verdict" = ok ] || status=1
 fi
-# Who is let in: role x method x owner, and callers with bad certificates or none.
+# Access: role x method x owner, and callers with bad certificates or none.
 case " $* " in
   *' --only '*) ;;
   *)

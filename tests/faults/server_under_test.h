@@ -16,10 +16,10 @@ class ServerUnderTest {
   ServerUnderTest(std::string program, std::string folder)
       : program_(std::move(program)), folder_(std::move(folder)) {}
 
-  // False, with what it said on stderr, when it does not come to listen.
+  // False, with its output on stderr, if it does not listen.
   bool Start(const std::vector<std::string>& environment = {},
              const std::vector<std::string>& flags = {});
-  // kill -9. What it sent before is still on its way to the clients.
+  // kill -9. Answers that it sent before are still under way to the clients.
   void Kill();
   // SIGTERM; its exit code.
   int Stop();

@@ -1,11 +1,11 @@
 // Many robots for long, through restarts, cut links and bad clients: nothing lost, nothing grows.
 #include <array>
 #include <iostream>
-#include <mutex>
 #include <random>
 #include <thread>
 
 #include "absl/strings/str_cat.h"
+#include "homing/base/mutex.h"
 #include "tests/faults/bad_clients.h"
 #include "tests/faults/checks.h"
 #include "tests/faults/fleet.h"
@@ -21,7 +21,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using Seconds = std::chrono::duration<double>;
 
-// Of the time: the restarts are over, and what grows at first has grown.
+// Fraction of the time after which the restarts are over and the initial growth has ended.
 constexpr double kRestartsUntil = 0.12;
 constexpr double kWarm = 0.2;
 constexpr int kRestarts = 3;
@@ -30,29 +30,29 @@ constexpr int kRestarts = 3;
 class Latencies {
  public:
   void Add(std::chrono::microseconds latency) {
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     if (half_ >= 0)
       milliseconds_[static_cast<std::size_t>(half_)].push_back(
           static_cast<double>(latency.count()) / 1000);
   }
   // -1: not counted.
   void SetHalf(int half) {
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     half_ = half;
   }
   std::vector<double> Of(int half) const {
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     return milliseconds_[static_cast<std::size_t>(half)];
   }
 
  private:
-  mutable std::mutex mutex_;
+  mutable Mutex mutex_;
   int half_ = -1;
   std::array<std::vector<double>, 2> milliseconds_;
 };
 
-// What robots on a link that is whole waited for answers, and those on the link that is cut, who
-// wait until they are connected again.
+// Latencies of robots on an undisturbed link, and of those on the cut link, which include the time
+// until they are connected again.
 struct LinkLatencies {
   Latencies whole;
   Latencies cut;
@@ -94,7 +94,7 @@ class SoakFleet {
   }
   int rounds() const { return rounds_; }
   std::string error() const {
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     return error_;
   }
 
@@ -114,7 +114,7 @@ class SoakFleet {
     for (int number = 0; !stopping_; ++number, ++rounds_) {
       const std::string journey = JourneyOf(options.robot, number);
       const absl::Status status = RunOnce(options, journey);
-      const std::lock_guard lock(mutex_);
+      const MutexLock lock(mutex_);
       if (!status.ok() && error_.empty()) error_ = absl::StrCat(journey, ": ", status.ToString());
     }
   }
@@ -122,7 +122,7 @@ class SoakFleet {
   Ledger* const ledger_;
   std::atomic<bool> stopping_ = false;
   std::atomic<int> rounds_ = 0;
-  mutable std::mutex mutex_;
+  mutable Mutex mutex_;
   std::string error_;
   std::vector<std::thread> threads_;
 };

@@ -112,7 +112,7 @@ TEST_F(StoreProcessTest, ReadOnlyLocalisesAndLeavesEveryByte) {
               StatusIs(absl::StatusCode::kFailedPrecondition, HasSubstr("read-only")));
   EXPECT_THAT(DeleteOne(robot_, kJourney),
               StatusIs(absl::StatusCode::kFailedPrecondition, HasSubstr("read-only")));
-  EXPECT_THAT(server::CheckHealth(server_.address(), ""), IsOk());
+  EXPECT_THAT(server::CheckHealth(server_.address()), IsOk());
   EXPECT_EQ(server_.Stop(), 0);
   EXPECT_TRUE(ReadFiles(server_.folder()) == before);
   EXPECT_EQ(fs::last_write_time(database_), changed);
@@ -125,7 +125,7 @@ TEST_F(StoreProcessTest, ReadOnlyAfterAKillIsRefusedUntilItWasStartedOnce) {
   const Ran refused =
       RunServer({"--listen", "127.0.0.1:0", "--database", server_.Url(), "--readonly"});
   EXPECT_EQ(refused.code, 1);
-  EXPECT_THAT(refused.errors, HasSubstr("not closed well"));
+  EXPECT_THAT(refused.errors, HasSubstr("not closed cleanly"));
   Start();
   ASSERT_EQ(server_.Stop(), 0);
   Start({"--readonly"});
@@ -133,7 +133,7 @@ TEST_F(StoreProcessTest, ReadOnlyAfterAKillIsRefusedUntilItWasStartedOnce) {
   EXPECT_EQ(server_.Stop(), 0);
 }
 
-TEST_F(StoreProcessTest, ADamagedFileIsToldAndSalvaged) {
+TEST_F(StoreProcessTest, ADamagedFileIsReportedAndSalvaged) {
   // Enough for pages of their own.
   robot_.observations = 400;
   Start();
@@ -144,7 +144,7 @@ TEST_F(StoreProcessTest, ADamagedFileIsToldAndSalvaged) {
   const Ran whole = RunServer({"doctor", database_});
   EXPECT_EQ(whole.code, 0) << whole.out << whole.errors;
   EXPECT_THAT(whole.out, HasSubstr("the file is whole"));
-  // The last page holds the end of what was recorded last.
+  // The last page holds the end of the last recording.
   std::fstream file(database_, std::ios::in | std::ios::out | std::ios::binary);
   file.seekp(static_cast<std::streamoff>(fs::file_size(database_)) - 4096);
   file << std::string(4096, 'x');
@@ -175,7 +175,7 @@ TEST_F(StoreProcessTest, WhereNothingCanBeWrittenItSaysSoAndEnds) {
   EXPECT_THAT(ran.errors, HasSubstr("unable to open database file"));
 }
 
-TEST_F(StoreProcessTest, WhatCannotBeReadIsTriedAgainLater) {
+TEST_F(StoreProcessTest, AFailedReadIsRetriedLater) {
   Start();
   ASSERT_THAT(Record(), IsOk());
   ASSERT_EQ(server_.Stop(), 0);

@@ -13,7 +13,7 @@
 namespace homing::fuzz {
 namespace {
 
-// Errors are told to people: not here.
+// Error messages are for users: suppress them here.
 class Silence {
  public:
   Silence() : out_(std::cout.rdbuf(sink_.rdbuf())), errors_(std::cerr.rdbuf(sink_.rdbuf())) {}

@@ -40,7 +40,7 @@ v1::Observation TakeObservation(FuzzInput* input, std::int64_t sequence) {
   return observation;
 }
 
-// What was recorded comes back from its file to the bit.
+// A recording must come back from its file to the bit.
 void RequireRoundTrip(const JourneyMap& map) {
   const auto file = server::EncodeJourney({}, map);
   Require(file.ok());

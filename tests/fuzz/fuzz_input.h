@@ -1,4 +1,4 @@
-// What libFuzzer gives, taken piece by piece. Missing bytes are 0.
+// Reads the input of libFuzzer piece by piece. Missing bytes are 0.
 #ifndef TESTS_FUZZ_FUZZ_INPUT_H_
 #define TESTS_FUZZ_FUZZ_INPUT_H_
 
@@ -36,7 +36,7 @@ class FuzzInput {
   std::string_view rest_;
 };
 
-// What must hold; the fuzzer sees an abort.
+// A condition that must hold; the fuzzer sees an abort.
 inline void Require(bool holds) {
   if (!holds) __builtin_trap();
 }

@@ -74,7 +74,8 @@ std::string Archive() {
 void MakeImports(const std::string& folder) {
   const std::string file = Archive();
   Write(folder, "whole", std::string(1, '\0') + file);
-  Write(folder, "message", "m" + file.substr(8, file.size() - 12));
+  // The even byte stands for version 2.
+  Write(folder, "message", "n" + file.substr(8, file.size() - 12));
 }
 
 // The RPC and its messages, as request_fuzz.cc takes them.

@@ -17,7 +17,7 @@
 namespace homing::fuzz {
 namespace {
 
-// What requests have stored goes with the server.
+// Stored data ends with the server.
 constexpr int kInputsAServer = 1000;
 constexpr std::size_t kMostMessages = 32;
 

@@ -111,15 +111,6 @@ TEST_F(CliExitCodeTest, SourcesWithoutFramesAreOneAndNamed) {
   EXPECT_EQ(Homing({"journeys", "list", "--json"}).lines.size(), 0U);
 }
 
-TEST_F(CliExitCodeTest, ADamagedImageIsOneAndSaysWhy) {
-  StartServer();
-  std::filesystem::create_directories(Path("frames"));
-  std::ofstream(Path("frames/0.png")) << "\x89PNG and nothing more";
-  const Ran ran = Homing({"record", "--journey", kJourney, "--left", Path("frames")});
-  EXPECT_EQ(ran.code, 1);
-  EXPECT_THAT(ran.errors, HasSubstr("INVALID_ARGUMENT"));
-}
-
 TEST_F(CliExitCodeTest, AFinishedJourneyIsNotRecordedAgain) {
   StartServer();
   ASSERT_EQ(Homing({"record", "--journey", kJourney, "--left", kShortScene}).code, 0);

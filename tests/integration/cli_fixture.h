@@ -16,7 +16,7 @@ namespace homing {
 
 inline constexpr char kJourney[] = "robots/a/journeys/b";
 
-// What one run of a program left.
+// The result of one run of a program.
 struct Ran {
   int code = 0;
   std::vector<std::string> lines;
@@ -27,7 +27,7 @@ struct Ran {
 
 class CliTest : public ::testing::Test {
  protected:
-  // A failed test tells what its server said, and whether it still ran.
+  // A failed test prints the server's output, and whether it still ran.
   void TearDown() override;
 
   // Starts the server on `database` (a name in the test's folder); the first time on a port of its

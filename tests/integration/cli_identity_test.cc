@@ -57,7 +57,7 @@ TEST_F(CliIdentityTest, ARobotRecordsItsOwnJourneysAndNoOthers) {
   EXPECT_THAT(list.lines, ::testing::Contains(HasSubstr("robots/r1/journeys/out")));
 }
 
-TEST_F(CliIdentityTest, WhoDoesNotSpeakTlsIsTold) {
+TEST_F(CliIdentityTest, AClientWithoutTlsGetsAHint) {
   StartServer("homing.db", Tls());
   const Ran plain = Homing({"journeys", "list", "--retry-seconds", "0"});
   EXPECT_EQ(plain.code, 3);
@@ -100,7 +100,7 @@ TEST_F(CliIdentityTest, WrongOrdersAreRefused) {
       Run({HOMING_SERVER_PROGRAM, "certs", "--out", Path("pki"), "--revoke", "robots/r9"}).code, 1);
   const Ran missing = Run({HOMING_SERVER_PROGRAM, "token", "robots/r", "--out", Path("t")});
   EXPECT_EQ(missing.code, 1);
-  EXPECT_THAT(missing.errors, HasSubstr("tokens is missing"));
+  EXPECT_THAT(missing.errors, HasSubstr("tokens: must name the file"));
 }
 
 }  // namespace

@@ -43,7 +43,7 @@ class CliRestartTest : public CliDriveTest, public ::testing::WithParamInterface
       ASSERT_TRUE(program.ReadLine().has_value()) << program.Stderr();
     }
   }
-  // Recorded at once, on a file of its own.
+  // Recorded without a break, on another database.
   std::string Undisturbed() {
     StartServer("undisturbed.db");
     const Ran ran = Run(Record());
@@ -100,7 +100,7 @@ TEST_P(CliRestartTest, TheClientIsInterruptedAndSaysHowToGoOn) {
   EXPECT_TRUE(Export(kJourney) == expected) << "the maps differ";
 }
 
-TEST_P(CliRestartTest, LocalizingGoesOnWhenTheServerIsKilled) {
+TEST_P(CliRestartTest, LocalizingResumesWhenTheServerIsKilled) {
   StartServer();
   ASSERT_EQ(Run(Record()).code, 0);
   Program localize(

@@ -1,14 +1,22 @@
 // homing-server as a process: how it starts, answers for its health, and stops.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <netinet/in.h>
+#include <poll.h>
 #include <sys/resource.h>
+#include <sys/socket.h>
+#include <unistd.h>
 
+#include <algorithm>
+#include <array>
+#include <chrono>
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <optional>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "tests/integration/program.h"
@@ -69,6 +77,66 @@ TEST_F(ServerProcessTest, ItOpensAsManyConnectionsAsTheSystemAllows) {
   EXPECT_GT(files.rlim_max, 64u);
 }
 
+// Connections that send nothing, or a little.
+class Sockets {
+ public:
+  ~Sockets() {
+    for (const int socket : sockets_) ::close(socket);
+  }
+  void Open(const std::string& address, const std::string& text = "") {
+    const int socket = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
+    sockaddr_in to{};
+    to.sin_family = AF_INET;
+    to.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    to.sin_port =
+        htons(static_cast<std::uint16_t>(std::stoi(address.substr(address.rfind(':') + 1))));
+    ::connect(socket, reinterpret_cast<sockaddr*>(&to), sizeof(to));
+    ::send(socket, text.data(), text.size(), MSG_NOSIGNAL);
+    sockets_.push_back(socket);
+  }
+  // The first bytes of the answer on the last one, within ten seconds.
+  std::string Answer() const {
+    pollfd poll{sockets_.back(), POLLIN, 0};
+    std::array<char, 15> bytes{};
+    if (::poll(&poll, 1, 10'000) <= 0) return "";
+    const auto size = ::recv(sockets_.back(), bytes.data(), bytes.size(), 0);
+    return {bytes.data(), static_cast<std::size_t>(std::max<ssize_t>(size, 0))};
+  }
+
+ private:
+  std::vector<int> sockets_;
+};
+
+TEST_F(ServerProcessTest, AMomentWithoutFileDescriptorsIsSurvived) {
+  std::vector<std::string> command = {"/bin/sh", "-c", "ulimit -n 64 && exec \"$0\" \"$@\""};
+  const std::vector<std::string> server_command = Command({"--http", "off"});
+  command.insert(command.end(), server_command.begin(), server_command.end());
+  Program server(command);
+  const std::string address = AddressOf(&server);
+  {
+    Sockets flood;
+    for (int i = 0; i < 100; ++i) flood.Open(address);
+    std::this_thread::sleep_for(std::chrono::milliseconds(500));
+  }
+  int code = 1;
+  for (int i = 0; i < 20 && code != 0; ++i) {
+    code = Run({HOMING_SERVER_PROGRAM, "healthcheck", "--server", address});
+  }
+  EXPECT_EQ(code, 0) << server.Stderr();
+}
+
+TEST_F(ServerProcessTest, SlowClientsDoNotStopTheMetrics) {
+  Program server(Command({"--http", "127.0.0.1:0"}));
+  AddressOf(&server);
+  const std::string line = server.ReadLine().value_or("");
+  const std::string address = line.substr(0, line.rfind('/'));
+  Sockets slow;
+  for (int i = 0; i < 12; ++i) slow.Open(address, "GET /metrics HTTP/1.1\r\nX-a: ");
+  Sockets quick;
+  quick.Open(address, "GET /metrics HTTP/1.1\r\nHost: x\r\n\r\n");
+  EXPECT_EQ(quick.Answer(), "HTTP/1.1 200 OK");
+}
+
 TEST_F(ServerProcessTest, AServerOnATakenAddressSaysSoAndEnds) {
   Program server(Command({}));
   const std::string address = AddressOf(&server);
@@ -85,10 +153,10 @@ TEST_F(ServerProcessTest, OffLoopbackWithoutTlsItDoesNotStart) {
   EXPECT_EQ(Run({HOMING_SERVER_PROGRAM, "--listen", "0.0.0.0:0", "--database", folder_.Database()},
                 &errors),
             1);
-  EXPECT_THAT(errors, HasSubstr("TLS is required"));
+  EXPECT_THAT(errors, HasSubstr("loopback address without TLS"));
 }
 
-TEST_F(ServerProcessTest, CheckConfigTellsWhatWouldBeUsedAndTouchesNothing) {
+TEST_F(ServerProcessTest, CheckConfigPrintsTheValuesAndChangesNothing) {
   Program check(Command({"--check-config", "--max-message", "1MiB"}));
   EXPECT_EQ(check.Wait(), 0);
   EXPECT_THAT(check.lines(), ::testing::Contains("max-message = 1048576"));

@@ -1,7 +1,8 @@
-// Role x method x owner over a real socket: who is let in, and with which code the others are not.
+// Role x method x owner over a real socket: the permitted calls, and the codes of the others.
 #include <google/protobuf/descriptor.h>
 
 #include <chrono>
+#include <filesystem>
 #include <fstream>
 #include <thread>
 
@@ -112,7 +113,7 @@ INSTANTIATE_TEST_SUITE_P(Index, AccessTableTest, ::testing::Bool(), [](const aut
   return std::string(index.param ? "Searched" : "Scanned");
 });
 
-// A list is of what may be seen: whoever has that right of anything may ask.
+// A list holds visible journeys only: a caller that may see any journey may list.
 bool IsAllowed(const Row& row, const RpcTraits& traits) {
   if (traits.rpc == Rpc::kListJourneys) {
     return std::string(row.rights) != "";
@@ -139,7 +140,7 @@ TEST_P(AccessTableTest, EveryRoleGetsItsRightsOfEveryMethodAndNoMore) {
   }
 }
 
-TEST_P(AccessTableTest, ListsHoldWhatMayBeSeen) {
+TEST_P(AccessTableTest, ListsHoldVisibleJourneysOnly) {
   for (const Row& row : kRows) {
     const bool sees = std::string(row.rights).find('S') != std::string::npos;
     for (const char* parent : {"robots/-", "robots/owner", "robots/guide"}) {
@@ -156,17 +157,17 @@ TEST_P(AccessTableTest, ListsHoldWhatMayBeSeen) {
   EXPECT_THAT(As("robots/reader").List("robots/-"), ElementsAre(kFleet, kListed));
 }
 
-TEST_P(AccessTableTest, AWildcardCoversWhatTheCallerMayRead) {
+TEST_P(AccessTableTest, AWildcardCoversReadableJourneysOnly) {
   EXPECT_THAT(As("robots/other").Localize("robots/-/journeys/-"), IsGrpcOk());
   EXPECT_THAT(As("robots/other").Match("robots/owner/journeys/-"), IsGrpcOk());
   EXPECT_THAT(As("robots/other").Localize("robots/guide/journeys/-"),
-              GrpcStatusIs(grpc::StatusCode::NOT_FOUND, HasSubstr("no journey is covered")));
+              GrpcStatusIs(grpc::StatusCode::NOT_FOUND, HasSubstr("covers no journey")));
   EXPECT_THAT(As("robots/other").Match("robots/-/journeys/private"),
-              GrpcStatusIs(grpc::StatusCode::NOT_FOUND, HasSubstr("no journey is covered")));
+              GrpcStatusIs(grpc::StatusCode::NOT_FOUND, HasSubstr("covers no journey")));
   EXPECT_THAT(As("robots/owner").Match("robots/-/journeys/private"), IsGrpcOk());
 }
 
-TEST_P(AccessTableTest, NothingIsRecognisedOnWhatTheCallerMayNotRead) {
+TEST_P(AccessTableTest, UnreadableJourneysGiveNoMatch) {
   const ServerOptions guarded = options_;
   options_.tokens.clear();
   options_.roles.clear();
@@ -183,7 +184,7 @@ TEST_P(AccessTableTest, NothingIsRecognisedOnWhatTheCallerMayNotRead) {
   }
 }
 
-TEST_P(AccessTableTest, WhetherAJourneyExistsIsNotToldToThoseWhoMayNotReadIt) {
+TEST_P(AccessTableTest, ARefusalDoesNotRevealWhetherAJourneyExists) {
   const grpc::Status there = As("robots/other").Call(Rpc::kGetJourney, kPrivate);
   const grpc::Status none =
       As("robots/other").Call(Rpc::kGetJourney, "robots/owner/journeys/privatf");
@@ -193,7 +194,7 @@ TEST_P(AccessTableTest, WhetherAJourneyExistsIsNotToldToThoseWhoMayNotReadIt) {
               GrpcStatusIs(grpc::StatusCode::NOT_FOUND, HasSubstr("none")));
 }
 
-TEST_P(AccessTableTest, WhoDoesNotSayWhoTheyAreGetsNothing) {
+TEST_P(AccessTableTest, ACallerWithoutCredentialsGetsNothing) {
   EveryRpc nobody(channel_, "");
   EveryRpc stranger(channel_, "guess");
   EveryRpc thief(channel_, ToText(HashToken(TokenOf("operators/chief"))));
@@ -208,7 +209,7 @@ TEST_P(AccessTableTest, WhoDoesNotSayWhoTheyAreGetsNothing) {
 }
 
 TEST_P(AccessTableTest, HealthIsForEveryone) {
-  EXPECT_THAT(CheckHealth(server_->address(), ""), IsOk());
+  EXPECT_THAT(CheckHealth(server_->address()), IsOk());
 }
 
 TEST_P(AccessTableTest, EveryMethodOfTheApiHasARow) {
@@ -243,6 +244,14 @@ TEST_P(AccessTableTest, ATokenTakenAwayEndsTheStreamThatUsesIt) {
   EXPECT_FALSE(stream->Read(&response));
   EXPECT_THAT(stream->Finish(),
               GrpcStatusIs(grpc::StatusCode::UNAUTHENTICATED, HasSubstr("token")));
+}
+
+TEST_P(AccessTableTest, ATokenFileOfNoBytesTakesNoTokenAway) {
+  std::ofstream(options_.tokens, std::ios::trunc).flush();
+  std::filesystem::last_write_time(
+      options_.tokens, std::filesystem::file_time_type::clock::now() - std::chrono::hours(1));
+  server_->Reload();
+  EXPECT_THAT(As("robots/owner").Call(Rpc::kGetJourney, kPrivate), IsGrpcOk());
 }
 
 TEST_P(AccessTableTest, SecretsAreNotInTheMetrics) {

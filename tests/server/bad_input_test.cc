@@ -1,5 +1,5 @@
-// Whatever comes over the wire, the caller gets its documented code and message, the server goes on
-// serving others, and nothing stored is lost.
+// For any input the caller gets the documented code and message, the server continues to serve
+// others, and no stored data is lost.
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -196,28 +196,28 @@ TEST_F(BadInputTest, AnObservationBeforeTheConfigIsInvalid) {
 TEST_F(BadInputTest, AnEmptyRequestAndASecondConfigAreInvalid) {
   Recording empty(journeys_.get(), "");
   empty.Send(v1::RecordJourneyRequest());
-  EXPECT_THAT(empty.AwaitEnd(), GrpcStatusIs(kInvalid, HasSubstr("empty")));
+  EXPECT_THAT(empty.AwaitEnd(), GrpcStatusIs(kInvalid, HasSubstr("must be config or observation")));
   Recording twice(journeys_.get(), kJourney);
   v1::RecordJourneyRequest config;
   config.mutable_config()->set_journey(kJourney);
   config.mutable_config()->set_writer_id(kWriter);
   twice.Send(config);
-  EXPECT_THAT(twice.AwaitEnd(), GrpcStatusIs(kInvalid, HasSubstr("twice")));
+  EXPECT_THAT(twice.AwaitEnd(), GrpcStatusIs(kInvalid, HasSubstr("must come once")));
 }
 
-TEST_F(BadInputTest, AGapSaysWhichNumberIsDueAndARepeatStoresNothing) {
+TEST_F(BadInputTest, AGapNamesTheExpectedNumberAndARepeatStoresNothing) {
   Recording recording(journeys_.get(), kJourney);
   EXPECT_EQ(recording.Record(test::FlowAt(1, 50)).next_sequence(), 3);
   recording.Send(test::FlowAt(4));
   const grpc::Status status = recording.AwaitEnd();
   EXPECT_THAT(status,
-              GrpcStatusIs(grpc::StatusCode::OUT_OF_RANGE, "observation.sequence is 4; 3 is due"));
+              GrpcStatusIs(grpc::StatusCode::OUT_OF_RANGE, "observation.sequence: 4 must be 3"));
   EXPECT_EQ(ReasonOf(status), "SEQUENCE_GAP");
   Localizing localizing(homing_.get(), LocalizeOn(kOld));
   localizing.Localize(test::FlowAt(0));
   localizing.Send(test::FlowAt(2));
   EXPECT_THAT(localizing.AwaitEnd(),
-              GrpcStatusIs(grpc::StatusCode::OUT_OF_RANGE, HasSubstr("1 is due")));
+              GrpcStatusIs(grpc::StatusCode::OUT_OF_RANGE, HasSubstr("must be 1")));
 }
 
 TEST_F(BadInputTest, ANegativeSequenceIsInvalid) {
@@ -277,7 +277,7 @@ TEST_F(BadInputTest, AFrameWhoseSizeChangesIsInvalidThoughCamerasMayDiffer) {
   EXPECT_EQ(Get("robots/r/journeys/frames").next_sequence(), 2);
 }
 
-TEST_F(BadInputTest, AClientThatGoesAwayHarmsNoOne) {
+TEST_F(BadInputTest, AClientThatDisconnectsHarmsNoOther) {
   for (int i = 0; i < 20; ++i) {
     grpc::ClientContext context;
     const auto stream = journeys_->RecordJourney(&context);

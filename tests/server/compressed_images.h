@@ -1,4 +1,4 @@
-// A JPEG of a real picture, and PNG headers that claim what is not there.
+// A JPEG of a real picture, and PNG headers with false sizes.
 #ifndef TESTS_SERVER_COMPRESSED_IMAGES_H_
 #define TESTS_SERVER_COMPRESSED_IMAGES_H_
 

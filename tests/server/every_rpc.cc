@@ -198,6 +198,10 @@ grpc::Status EveryRpc::CallJourneys(Rpc rpc, const std::string& journey) {
     v1::FinishJourneyResponse response;
     return journeys_->FinishJourney(context.get(), request, &response);
   }
+  if (rpc == Rpc::kSetReaders) {
+    v1::Journey response;
+    return journeys_->SetReaders(context.get(), Named<v1::SetReadersRequest>(journey), &response);
+  }
   if (rpc == Rpc::kListLandmarks) {
     v1::ListLandmarksRequest request;
     request.set_parent(journey);

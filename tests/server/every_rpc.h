@@ -22,22 +22,22 @@ class EveryRpc {
   // `token` empty: none is sent.
   EveryRpc(const std::shared_ptr<grpc::Channel>& channel, std::string token);
 
-  // Calls it about `journey` ("robots/R/journeys/J", which exists and has no steps), so that a
-  // caller who may gets ExpectedCode.
+  // Calls it about `journey` ("robots/R/journeys/J", which exists and has no steps). A caller with
+  // the right gets ExpectedCode.
   grpc::Status Call(Rpc rpc, const std::string& journey);
-  // What one who may gets: an answer, or an error that only comes after the question of rights.
+  // The code for a caller with the right: OK, or an error from after the check of rights.
   static grpc::StatusCode ExpectedCode(Rpc rpc);
 
   // Appends the copy of the store to `file`, if any.
   grpc::Status BackUp(std::string* file = nullptr);
-  // Names of what ListJourneys of `parent` gives.
+  // The names that ListJourneys of `parent` returns.
   std::vector<std::string> List(const std::string& parent);
   grpc::Status Create(const std::string& journey, const std::vector<std::string>& readers);
   // A stream that names `journey` (or a pattern), sends nothing more and reads to the end.
   grpc::Status Localize(const std::string& journey);
   grpc::Status Record(const std::string& journey);
   grpc::Status Match(const std::string& journey);
-  // Journeys that both queries find in `pattern` for what is seen, each once.
+  // The journeys that both queries find in `pattern` for the view `seen`, each once.
   std::set<std::string> Recognise(const std::string& pattern, const v1::Observation& seen);
 
  private:

@@ -34,7 +34,7 @@ TEST_F(LifecycleTest, TheSameWriterTakesOverAndTheOldStreamIsAborted) {
   EXPECT_EQ(first.next_sequence(), 1);
   EXPECT_EQ(first.resend_from(), 1);
   const grpc::Status status = old_stream.AwaitEnd();
-  EXPECT_THAT(status, GrpcStatusIs(grpc::StatusCode::ABORTED, HasSubstr("took it over")));
+  EXPECT_THAT(status, GrpcStatusIs(grpc::StatusCode::ABORTED, HasSubstr("taken over")));
   EXPECT_EQ(ReasonOf(status), "WRITER_REPLACED");
   EXPECT_EQ(stream.Record(test::FlowAt(1)).next_sequence(), 2);
 }
@@ -114,7 +114,7 @@ TEST_F(LifecycleTest, FramesAndTheFlowVectorsOfThemGiveTheSameFileByteForByte) {
   EXPECT_EQ(Export(), Export("robots/r/journeys/flow"));
 }
 
-TEST_F(LifecycleTest, AfterARestartTheRecordingGoesOnToTheSameFile) {
+TEST_F(LifecycleTest, AfterARestartTheRecordingContinuesToTheSameFile) {
   constexpr int kFrames = 14;
   ASSERT_THAT(Create("whole"), IsGrpcOk());
   {
@@ -143,9 +143,9 @@ TEST_F(LifecycleTest, AfterARestartTheRecordingGoesOnToTheSameFile) {
   EXPECT_EQ(Export(), Export("robots/r/journeys/whole"));
 }
 
-TEST_F(LifecycleTest, ADrainingServerEndsStreamsAsUnavailableAndKeepsWhatItAnswered) {
+TEST_F(LifecycleTest, ADrainingServerEndsStreamsAsUnavailableAndKeepsAcknowledgedSteps) {
   const std::string address = server_->address();
-  ASSERT_THAT(CheckHealth(address, ""), IsOk());
+  ASSERT_THAT(CheckHealth(address), IsOk());
   Recording recording(journeys_.get(), kJourney);
   recording.Record(test::FlowAt(0));
   Localizing localizing(homing_.get(), LocalizeOn(kJourney));
@@ -161,7 +161,7 @@ TEST_F(LifecycleTest, ADrainingServerEndsStreamsAsUnavailableAndKeepsWhatItAnswe
   EXPECT_THAT(localizing.AwaitEnd(),
               GrpcStatusIs(grpc::StatusCode::UNAVAILABLE, HasSubstr("shutting down")));
   drain.join();
-  EXPECT_THAT(CheckHealth(address, ""), StatusIs(absl::StatusCode::kUnavailable, HasSubstr("")));
+  EXPECT_THAT(CheckHealth(address), StatusIs(absl::StatusCode::kUnavailable, HasSubstr("")));
   StartServer();
   EXPECT_GE(Get().next_sequence(), recording.answers().back().next_sequence());
 }

@@ -73,6 +73,21 @@ TEST_F(LimitsTest, ObservationsASecondAndNothingAcknowledgedIsLost) {
   EXPECT_EQ(later.Record(test::FlowAt(10)).next_sequence(), 11);
 }
 
+TEST_F(LimitsTest, RobotsThatLocaliseOnAWildcardDoNotSlowEachOther) {
+  options_.limits.max_robot_rate = 5;
+  Restart();
+  RecordFlow(0, 5);
+  Localizing first(homing_.get(), LocalizeOn("robots/-/journeys/-"));
+  Localizing second(homing_.get(), LocalizeOn("robots/-/journeys/-"));
+  for (int place = 0; place < 10; ++place) {
+    first.Localize(test::FlowAt(place));
+    second.Localize(test::FlowAt(place));
+  }
+  EXPECT_THAT(second.Close(), IsGrpcOk());
+  first.Send(test::FlowAt(10));
+  ExpectExhausted(first.AwaitEnd(), "RATE");
+}
+
 TEST_F(LimitsTest, JourneysAndBytesOfOneRobot) {
   options_.limits.max_robot_journeys = 2;
   Restart();
@@ -93,7 +108,7 @@ TEST_F(LimitsTest, SizeOfTheDatabase) {
   Restart();
   Recording recording(journeys_.get(), kJourney);
   v1::RecordJourneyResponse response;
-  // One answer behind what is sent.
+  // Reads one answer for each observation sent before it.
   for (int place = 0; recording.Send(test::FlowAt(place)) && recording.Read(&response); ++place) {
   }
   const grpc::Status status = recording.AwaitEnd();
@@ -150,7 +165,7 @@ TEST_F(LimitsTest, FilesBeingImportedShareTheMemory) {
               GrpcStatusIs(grpc::StatusCode::INVALID_ARGUMENT, HasSubstr("journey file")));
 }
 
-// What is answered to GET of `path` by whom listens on `address`.
+// The answer to GET of `path` at `address`.
 std::string HttpGet(const std::string& address, const std::string& path) {
   const int port = std::stoi(address.substr(address.rfind(':') + 1));
   const int file = ::socket(AF_INET, SOCK_STREAM, 0);
@@ -206,7 +221,7 @@ TEST_F(LimitsTest, AnHttpAddressThatIsTakenIsAnErrorOnlyIfItWasAskedFor) {
   second.http = server_->metrics_address();
   second.database = "sqlite:" + folder_.File("other.db");
   EXPECT_THAT(HomingServer::Start(second),
-              StatusIs(absl::StatusCode::kUnavailable, HasSubstr("http is")));
+              StatusIs(absl::StatusCode::kUnavailable, HasSubstr("http: ")));
   second.http_optional = true;
   const auto started = HomingServer::Start(second);
   ASSERT_THAT(started, IsOk());

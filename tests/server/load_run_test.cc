@@ -93,7 +93,7 @@ TEST_F(LoadRunTest, LargeMessagesGoThrough) {
   ExpectAllAnswered(Run());
 }
 
-TEST_F(LoadRunTest, WhatAStreamIsRefusedForIsTold) {
+TEST_F(LoadRunTest, TheReasonOfARefusalIsReported) {
   ExpectAllAnswered(Run());
   ASSERT_THAT(Finish("robots/bench0/journeys/load", "bench"), IsGrpcOk());
   const auto again = Run();
@@ -115,7 +115,7 @@ TEST_F(LoadRunTest, AServerThatGoesAwayIsAFailureOfEachRobot) {
   EXPECT_FALSE(result->counts.status.ok());
 }
 
-TEST_F(LoadRunTest, NobodyAtTheAddressIsUnavailable) {
+TEST_F(LoadRunTest, AnAddressWithoutAServerIsUnavailable) {
   address_ = "127.0.0.1:1";
   connection_.connect_timeout = std::chrono::milliseconds(500);
   EXPECT_THAT(Run().status(), StatusIs(absl::StatusCode::kUnavailable, HasSubstr("127.0.0.1:1")));
@@ -147,8 +147,7 @@ TEST_F(LoadRunTest, OverTlsWithACertificateOfTheClient) {
   connection_.tls_cert = folder_.File("pki/operators/chief.pem");
   connection_.tls_key = folder_.File("pki/operators/chief.key");
   ExpectAllAnswered(Run());
-  // 127.1 leads to the same server, and is not what its certificate says; it is no name either,
-  // though its letters would do for an address.
+  // 127.1 leads to the same server, but is not in its certificate; it is not a valid name either.
   connection_.address = "127.1" + server_->address().substr(server_->address().rfind(':'));
   const auto other = client::Http2Endpoint::Make(connection_);
   ASSERT_THAT(other, IsOk());

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
+#include <thread>
+
 #include "google/rpc/error_details.pb.h"
 #include "proto/wire/observation_conversion.h"
 #include "tests/support/connected.h"
@@ -33,6 +36,15 @@ std::string ReasonOf(const grpc::Status& status) {
 
 bool HasRetryInfo(const grpc::Status& status) {
   return DetailOf<google::rpc::RetryInfo>(status).has_value();
+}
+
+grpc::Status AfterStreamEnd(const std::function<grpc::Status()>& call) {
+  grpc::Status status = call();
+  for (int i = 0; i < 500 && status.error_code() == grpc::StatusCode::ABORTED; ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    status = call();
+  }
+  return status;
 }
 
 std::string BadFieldOf(const grpc::Status& status) {

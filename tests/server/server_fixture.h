@@ -1,5 +1,5 @@
-// A server of this process on a loopback port that it picks itself, a database of its own, and
-// short words for what a client does.
+// A server in this process, on its own loopback port and database, and helpers for a client's
+// actions.
 #ifndef TESTS_SERVER_SERVER_FIXTURE_H_
 #define TESTS_SERVER_SERVER_FIXTURE_H_
 
@@ -7,6 +7,7 @@
 #include <grpcpp/grpcpp.h>
 
 #include <atomic>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -39,6 +40,9 @@ MATCHER(IsGrpcOk, "is OK") {
 // ErrorInfo's reason; empty when there are no details.
 std::string ReasonOf(const grpc::Status& status);
 bool HasRetryInfo(const grpc::Status& status);
+// Calls again for up to 5 s while it is ABORTED: the server sees the end of a stream a moment after
+// the client.
+grpc::Status AfterStreamEnd(const std::function<grpc::Status()>& call);
 // The field that BadRequest names.
 std::string BadFieldOf(const grpc::Status& status);
 
@@ -58,9 +62,9 @@ class Recording {
   bool Read(v1::RecordJourneyResponse* response) { return stream_->Read(response); }
   // Sends and reads one answer.
   v1::RecordJourneyResponse Record(const Observation& observation);
-  // Reads what is left, without having said that nothing more comes.
+  // Reads the remaining answers without closing the sending side.
   grpc::Status AwaitEnd();
-  // Says that nothing more comes, then reads what is left.
+  // Closes the sending side, then reads the remaining answers.
   grpc::Status Close();
   const std::vector<v1::RecordJourneyResponse>& answers() const { return answers_; }
 

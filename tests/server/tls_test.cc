@@ -1,4 +1,4 @@
-// TLS over a real socket: who is refused, who is known, and files that change while the server
+// TLS over a real socket: refused and accepted clients, and files that change while the server
 // runs.
 #include <filesystem>
 #include <fstream>
@@ -92,13 +92,20 @@ TEST_F(TlsTest, PlainTextIsRefused) {
   EXPECT_EQ(Get(plain).error_code(), grpc::StatusCode::UNAVAILABLE);
 }
 
-TEST_F(TlsTest, WithoutACertificateNobodyConnects) {
+TEST_F(TlsTest, WithoutACertificateNoClientConnects) {
   const std::string ca = Read(pki("ca.pem"));
   EXPECT_EQ(Get(Dial({}, ca)).error_code(), grpc::StatusCode::UNAVAILABLE);
-  EXPECT_FALSE(CheckHealth(server_->address(), pki("ca.pem")).ok());
-  EXPECT_THAT(CheckHealth(server_->address(), pki("ca.pem"), pki("operators/anna.pem"),
-                          pki("operators/anna.key")),
+  EXPECT_FALSE(CheckHealth(server_->address(), {pki("ca.pem"), "", "", ""}).ok());
+  EXPECT_THAT(CheckHealth(server_->address(), {pki("ca.pem"), "", pki("operators/anna.pem"),
+                                               pki("operators/anna.key")}),
               IsOk());
+}
+
+TEST_F(TlsTest, HealthCheckMayTrustTheServersCertificateItself) {
+  const std::string cert = pki("operators/anna.pem");
+  const std::string key = pki("operators/anna.key");
+  EXPECT_THAT(CheckHealth(server_->address(), {"", pki("server.pem"), cert, key}), IsOk());
+  EXPECT_FALSE(CheckHealth(server_->address(), {"", cert, cert, key}).ok());
 }
 
 TEST_F(TlsTest, ExpiredForeignAndRevokedCertificatesAreRefused) {
@@ -138,7 +145,7 @@ TEST_F(TlsTest, ARevokedRobotIsCutOffThoughItsConnectionIsOpen) {
   EXPECT_THAT(Get(channel), GrpcStatusIs(grpc::StatusCode::UNAUTHENTICATED, HasSubstr("revoked")));
 }
 
-TEST_F(TlsTest, ACertificateWithoutAnIdentityIsNobody) {
+TEST_F(TlsTest, ACertificateWithoutAnIdentityIsRefused) {
   const std::string ca = Read(pki("ca.pem"));
   for (const std::vector<std::string>& names : {std::vector<std::string>{},
                                                 {"DNS:robots"},
@@ -163,7 +170,7 @@ TEST_F(TlsTest, TheServersCertificateIsExchangedWithoutARestart) {
   ASSERT_THAT(MakeCertificates(order), IsOk());
   ASSERT_NE(Read(pki("ca.pem")), old_ca);
   Await([&] { return Get(DialAs("robots/r1")).ok(); });
-  // Of the authority before, nobody is let in any more, also on a connection that is open.
+  // Certificates of the previous authority are refused, also on an open connection.
   Await([&] { return Get(open).error_code() == grpc::StatusCode::UNAUTHENTICATED; });
   EXPECT_THAT(Create("more"), GrpcStatusIs(grpc::StatusCode::UNAVAILABLE, HasSubstr("")));
 }
@@ -174,7 +181,8 @@ TEST_F(TlsTest, WithTokensACertificateMayBeMissingButNotAnothers) {
   StartServer();
   const auto bare = Dial({}, Read(pki("ca.pem")));
   EXPECT_THAT(EveryRpc(bare, "token-of-r9").Create("robots/r9/journeys/out", {}), IsGrpcOk());
-  EXPECT_THAT(Get(bare), GrpcStatusIs(grpc::StatusCode::UNAUTHENTICATED, HasSubstr("required")));
+  EXPECT_THAT(Get(bare),
+              GrpcStatusIs(grpc::StatusCode::UNAUTHENTICATED, HasSubstr("no credentials")));
   EXPECT_THAT(EveryRpc(DialAs("robots/r1"), "token-of-r9").Create(kOwn, {}),
               GrpcStatusIs(grpc::StatusCode::UNAUTHENTICATED, HasSubstr("different identities")));
   EXPECT_THAT(EveryRpc(DialAs("robots/r1"), "").Create(kOwn, {}), IsGrpcOk());
@@ -187,7 +195,7 @@ TEST_F(TlsTest, WithTokensACertificateMayBeMissingButNotAnothers) {
             grpc::StatusCode::UNAVAILABLE);
 }
 
-TEST_F(TlsTest, BadFilesAreToldAtTheStart) {
+TEST_F(TlsTest, BadFilesAreReportedAtTheStart) {
   options_.listen = "127.0.0.1:0";
   options_.database = "sqlite:" + folder_.File("other.db");
   ServerOptions bad = options_;

@@ -164,7 +164,7 @@ TEST_P(AppendTest, RefusesAnotherKindOfInput) {
               StatusIs(absl::StatusCode::kFailedPrecondition, HasSubstr("FLOW_VECTORS")));
 }
 
-TEST_P(AppendTest, RefusesWhatTheMapWouldRefuse) {
+TEST_P(AppendTest, RefusesStepsThatTheMapWouldRefuse) {
   const std::vector<JourneyStep> steps = MakeSteps(12);
   AppendAll(*store_, kJourney, {steps.begin(), steps.begin() + 11});
   const JourneyStep& good = steps[11];
@@ -176,17 +176,17 @@ TEST_P(AppendTest, RefusesWhatTheMapWouldRefuse) {
     EXPECT_FALSE(bad.step <= 11 && map.Append(bad).ok()) << why;
     ExpectRefused(bad, why);
   };
-  refused([](JourneyStep& s) { s.step = 10; }, "step is 10: must be 11 to 11");
-  refused([](JourneyStep& s) { s.step = 12; }, "step is 12: must be 11 to 11");
-  refused([](JourneyStep& s) { s.fingerprints[3].fingerprint.landmark = 1000; }, "is 1000");
-  refused([](JourneyStep& s) { s.fingerprints[1].fingerprint.landmark = -1; }, "is -1");
+  refused([](JourneyStep& s) { s.step = 10; }, "step: 10 must be in [11, 11]");
+  refused([](JourneyStep& s) { s.step = 12; }, "step: 12 must be in [11, 11]");
+  refused([](JourneyStep& s) { s.fingerprints[3].fingerprint.landmark = 1000; }, "landmark: 1000");
+  refused([](JourneyStep& s) { s.fingerprints[1].fingerprint.landmark = -1; }, "landmark: -1");
   refused([](JourneyStep& s) { s.fingerprints[1] = s.fingerprints[0]; }, "once in a step");
-  refused([](JourneyStep& s) { s.fingerprints[0].fingerprint.count = 0; }, "is 0: must be");
+  refused([](JourneyStep& s) { s.fingerprints[0].fingerprint.count = 0; }, "0 must be at least 1");
   refused([](JourneyStep& s) { s.fingerprints[0].fingerprint.x = NAN; }, "finite");
   refused([](JourneyStep& s) { s.fingerprints[0].spread = INFINITY; }, "spread");
   refused([](JourneyStep& s) { std::swap(s.fingerprints[1], s.fingerprints[2]); }, "left");
   refused([](JourneyStep& s) { s.fingerprints[1].side = Side::kRight; }, "side");
-  refused([](JourneyStep& s) { s.fingerprints.push_back(s.fingerprints[3]); }, "over 2");
+  refused([](JourneyStep& s) { s.fingerprints.push_back(s.fingerprints[3]); }, "at most 2");
   AppendAll(*store_, kJourney, {good});
 }
 
@@ -199,7 +199,7 @@ TEST_P(AppendTest, ALandmarkMustHaveTheSideOfItsLastStepHoweverLongAgo) {
   again.step = 39;
   again.fingerprints = {old};
   again.fingerprints[0].side = Side::kRight;
-  ExpectRefused(again, "met on the LEFT");
+  ExpectRefused(again, "RIGHT must be LEFT");
   again.fingerprints[0].side = Side::kLeft;
   AppendAll(*store_, kJourney, {again});
 }
@@ -226,7 +226,7 @@ TEST_P(AppendTest, DeletingAJourneyLeavesNothingOfItAndAllOfTheOthers) {
   AppendAll(*store_, kOther, steps);
   ASSERT_THAT(store_->DeleteJourney(kJourney), IsOk());
   EXPECT_TRUE(SameMap(*store_->LoadMap(kOther), MapOf(OddSettings(), steps)));
-  // The row number is free again: what the new journey finds there would be the old one's.
+  // The row number is free again: the new journey must not find the old one's data.
   ASSERT_THAT(store_->CreateJourney(Record(kJourney)), IsOk());
   EXPECT_EQ(store_->LoadMap(kJourney)->step_count(), 0);
   AppendAll(*store_, kJourney, steps);

@@ -52,7 +52,7 @@ TEST_F(BackupTest, ACopyTakenWhileAWriterWritesIsWhole) {
   writer.join();
 }
 
-TEST_F(BackupTest, ARestoredCopyGoesOn) {
+TEST_F(BackupTest, ARestoredCopyContinues) {
   const std::vector<JourneyStep> steps = MakeSteps(50);
   {
     auto store = OpenOrDie(folder_.Database());

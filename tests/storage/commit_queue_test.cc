@@ -16,7 +16,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-// Holds every transaction until let go, and notes its size.
+// Holds every transaction until it is released, and notes its size.
 class HeldStore : public JourneyStore {
  public:
   std::vector<absl::Status> AppendSteps(const std::vector<JourneyAppend>& appends) override {
@@ -37,6 +37,9 @@ class HeldStore : public JourneyStore {
   absl::Status DeleteJourney(const std::string&) override { return result; }
   absl::Status FinishJourney(const std::string&) override { return result; }
   absl::Status SetWriter(const std::string&, const std::string&) override { return result; }
+  absl::Status SetReaders(const std::string&, const std::vector<std::string>&) override {
+    return result;
+  }
   absl::StatusOr<JourneyMap> LoadMap(const std::string&) override { return result; }
   absl::StatusOr<JourneyTail> LoadTail(const std::string&) override { return result; }
   absl::Status ImportJourney(const JourneyRecord&, const JourneyMap&) override { return result; }
@@ -59,8 +62,13 @@ TEST(CommitQueue, CallsBackOnlyAfterTheCommitInOrderOfSubmission) {
   const std::vector<JourneyStep> steps = MakeSteps(100);
   std::vector<std::int64_t> order;
   std::atomic<int> early = 0;
+  int reported = 0;
   {
-    CommitQueue queue(store.get());
+    CommitQueueOptions options;
+    options.on_commit = [&](int stored, bool ok, std::chrono::duration<double> /*time*/) {
+      reported += ok ? stored : -1000;
+    };
+    CommitQueue queue(store.get(), options);
     for (const JourneyStep& step : steps) {
       ASSERT_THAT(
           queue.Submit(
@@ -76,6 +84,7 @@ TEST(CommitQueue, CallsBackOnlyAfterTheCommitInOrderOfSubmission) {
     }
   }
   EXPECT_EQ(early, 0);
+  EXPECT_EQ(reported, 100);
   ASSERT_EQ(order.size(), steps.size());
   for (std::size_t i = 0; i < order.size(); ++i) {
     EXPECT_EQ(order[i], static_cast<std::int64_t>(i));
@@ -83,7 +92,7 @@ TEST(CommitQueue, CallsBackOnlyAfterTheCommitInOrderOfSubmission) {
   EXPECT_TRUE(SameMap(*store->LoadMap("j"), MapOf(OddSettings(), steps)));
 }
 
-TEST(CommitQueue, GroupsWhatWaitsRefusesTheRestAndDrains) {
+TEST(CommitQueue, GroupsWaitingAppendsRefusesTheRestAndDrains) {
   HeldStore store;
   int called = 0;
   absl::Status last;
@@ -122,7 +131,7 @@ TEST(CommitQueue, AfterALargeBatchItWaitsForMore) {
     EXPECT_EQ(called, 1);
     ASSERT_THAT(queue.Submit(JourneyAppend(), done), IsOk());
     while (called < 3) std::this_thread::yield();
-    // What waits when it ends is committed at once.
+    // Waiting appends are committed at once at the end.
     ASSERT_THAT(queue.Submit(JourneyAppend(), done), IsOk());
   }
   EXPECT_EQ(called, 4);

@@ -1,4 +1,4 @@
-// The process dies; what was acknowledged is there.
+// Acknowledged observations survive the death of the process.
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/wait.h>
@@ -21,7 +21,7 @@ namespace {
   }
 }
 
-TEST(Crash, WhatWasAcknowledgedSurvivesAKill) {
+TEST(Crash, AcknowledgedStepsSurviveAKill) {
   const TemporaryFolder folder;
   ASSERT_THAT(OpenOrDie(folder.Database())->CreateJourney(Record(kJourney)), IsOk());
   std::int64_t acknowledged = -1;

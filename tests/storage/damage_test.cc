@@ -126,7 +126,7 @@ TEST_F(DamageTest, ATailThatContradictsItselfIsDataLoss) {
   }
 }
 
-TEST_F(DamageTest, AFullDiskIsToldAndStoresNothingByHalves) {
+TEST_F(DamageTest, AFullDiskIsReportedAndStoresNoHalves) {
   auto store = OpenOrDie(folder_.Database(), 200 * 1024);
   ASSERT_THAT(store->CreateJourney(Record(kJourney)), IsOk());
   StepMaker maker;

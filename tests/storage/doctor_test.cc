@@ -1,4 +1,4 @@
-// What the doctor finds and saves in whole, cut and changed files.
+// The doctor's findings and salvage for complete, cut and changed files.
 #include "storage/doctor.h"
 
 #include <gmock/gmock.h>
@@ -95,7 +95,7 @@ TEST_F(DoctorTest, SalvageKeepsAllOfAWholeFile) {
     EXPECT_EQ(after->readers, before->readers);
   }
   EXPECT_THAT(to->GetModel("deviationModels/m"), IsOk());
-  // Recording goes on.
+  // Recording continues.
   JourneyStep next = MakeSteps(kSteps + 1).back();
   EXPECT_THAT(to->AppendSteps({AppendOf(NameOf(1), next)})[0], IsOk());
 }
@@ -117,7 +117,7 @@ TEST_F(DoctorTest, OneDamagedJourneyDoesNotTakeTheOthersAlong) {
   EXPECT_THAT(*store->ListJourneys("robots/", "", 100), SizeIs(kJourneys - 1));
 }
 
-TEST_F(DoctorTest, ATruncatedFileIsToldAndWhatIsWholeIsSaved) {
+TEST_F(DoctorTest, ATruncatedFileIsReportedAndCompleteJourneysAreSaved) {
   const auto size = std::filesystem::file_size(path_);
   for (const std::uintmax_t share : {9, 7, 5, 3}) {
     std::filesystem::remove(saved_);
@@ -153,7 +153,7 @@ TEST_F(DoctorTest, FlippedBitsCrashNothing) {
   EXPECT_GT(saved_journeys, 0);
 }
 
-TEST_F(DoctorTest, WhatIsNoDatabaseIsSaidToBeNone) {
+TEST_F(DoctorTest, AFileThatIsNoDatabaseIsReported) {
   std::ofstream(path_) << std::string(8192, 'x');
   EXPECT_THAT(Examine(path_), StatusIs(absl::StatusCode::kDataLoss, HasSubstr("not a database")));
   EXPECT_THAT(Examine(folder_.File("none.db")),

@@ -54,6 +54,7 @@ TEST_P(JourneyStoreTest, NamesTheJourneyThatDoesNotExist) {
   EXPECT_THAT(store_->DeleteJourney(kJourney), not_found);
   EXPECT_THAT(store_->FinishJourney(kJourney), not_found);
   EXPECT_THAT(store_->SetWriter(kJourney, "w"), not_found);
+  EXPECT_THAT(store_->SetReaders(kJourney, {}), not_found);
 }
 
 TEST_P(JourneyStoreTest, ListsInOrderOfNameFromWhereItLeftOff) {
@@ -86,6 +87,15 @@ TEST_P(JourneyStoreTest, FinishesAndChangesTheWriter) {
   EXPECT_THAT(store_->FinishJourney(kJourney), IsOk());
   EXPECT_EQ(store_->GetJourney(kJourney)->writer_id, "second");
   EXPECT_EQ(store_->GetJourney(kJourney)->state, JourneyState::kFinished);
+}
+
+TEST_P(JourneyStoreTest, ChangesTheReaders) {
+  ASSERT_THAT(store_->CreateJourney(Record(kJourney)), IsOk());
+  const std::vector<std::string> readers = {"robots/b", "*"};
+  ASSERT_THAT(store_->SetReaders(kJourney, readers), IsOk());
+  EXPECT_EQ(store_->GetJourney(kJourney)->readers, readers);
+  ASSERT_THAT(store_->SetReaders(kJourney, {}), IsOk());
+  EXPECT_THAT(store_->GetJourney(kJourney)->readers, IsEmpty());
 }
 
 TEST_P(JourneyStoreTest, ANameCannotCarrySqlIntoTheStore) {

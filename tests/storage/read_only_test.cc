@@ -68,6 +68,7 @@ TEST_F(ReadOnlyTest, RefusesEveryWrite) {
   EXPECT_THAT((*store)->DeleteJourney(kJourney), refused);
   EXPECT_THAT((*store)->FinishJourney(kJourney), refused);
   EXPECT_THAT((*store)->SetWriter(kJourney, "w"), refused);
+  EXPECT_THAT((*store)->SetReaders(kJourney, {"*"}), refused);
   EXPECT_THAT((*store)->AppendSteps({AppendOf(kJourney, steps_[0])})[0], refused);
   EXPECT_THAT((*store)->CreateModel({}), refused);
   EXPECT_THAT((*store)->ProbeWrite(), IsOk());
@@ -88,7 +89,7 @@ TEST_F(ReadOnlyTest, ManyMayReadButNotBesideAWriter) {
 TEST_F(ReadOnlyTest, ALogThatIsNotInTheFileIsRefused) {
   std::ofstream(path_ + "-wal") << "something";
   EXPECT_THAT(Open(),
-              StatusIs(absl::StatusCode::kFailedPrecondition, HasSubstr("not closed well")));
+              StatusIs(absl::StatusCode::kFailedPrecondition, HasSubstr("not closed cleanly")));
 }
 
 TEST_F(ReadOnlyTest, AnOlderOrNewerSchemaIsRefusedAndLeft) {
@@ -108,7 +109,7 @@ TEST_F(ReadOnlyTest, AnOlderOrNewerSchemaIsRefusedAndLeft) {
   }
 }
 
-TEST_F(ReadOnlyTest, AFileThatIsNotThereIsToldAndNotMade) {
+TEST_F(ReadOnlyTest, AMissingFileIsReportedAndNotCreated) {
   StoreOptions options;
   options.url = "sqlite:" + folder_.File("none.db");
   options.read_only = true;

@@ -29,7 +29,7 @@ void Execute(const std::string& path, const std::string& sql) {
               IsOk());
 }
 
-// What `sql` gives, as one value.
+// The result of `sql`, as one value.
 std::string Ask(const std::string& path, const std::string& sql) {
   auto connection = Connection::Open(path, Connection::Access::kReadOnly, 100);
   EXPECT_THAT(connection, IsOk());

@@ -57,7 +57,7 @@ TEST(SettingsJson, EverySettingIsKept) {
   EXPECT_EQ(read->lateral_offset_m, 0.1);
 }
 
-TEST(SettingsJson, WhatIsNotTheExpectedJsonIsDataLoss) {
+TEST(SettingsJson, UnexpectedJsonIsDataLoss) {
   for (const char* text : {"", "{", "[]", "{\"flow\":{}}", "null", "{\"left_camera\":3}"}) {
     EXPECT_THAT(JourneySettingsFromJson(text),
                 StatusIs(absl::StatusCode::kDataLoss, HasSubstr("settings of a journey")));

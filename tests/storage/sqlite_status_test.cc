@@ -9,7 +9,7 @@
 namespace homing::storage {
 namespace {
 
-TEST(StatusFromSqlite, TellsTheCallerWhatToDo) {
+TEST(StatusFromSqlite, TheCodeShowsTheCallersAction) {
   const std::pair<int, absl::StatusCode> codes[] = {
       {SQLITE_BUSY, absl::StatusCode::kUnavailable},
       {SQLITE_BUSY_SNAPSHOT, absl::StatusCode::kUnavailable},
@@ -38,7 +38,7 @@ TEST(StatusFromSqlite, TellsTheCallerWhatToDo) {
   }
 }
 
-TEST(StatusFromSqlite, TellsFaultsOfTheStoreFromRefusals) {
+TEST(StatusFromSqlite, DistinguishesFaultsOfTheStoreFromRefusals) {
   for (const int fault : {SQLITE_FULL, SQLITE_IOERR_WRITE, SQLITE_READONLY, SQLITE_BUSY}) {
     EXPECT_TRUE(IsStoreFault(StatusFromSqlite(fault, ""))) << fault;
   }

@@ -58,7 +58,7 @@ JourneyAppend AppendOf(const std::string& journey, const JourneyStep& step);
 void AppendAll(JourneyStore& store, const std::string& journey,
                const std::vector<JourneyStep>& steps);
 std::vector<JourneyStep> MakeSteps(int count);
-// What JourneyMap itself makes of the steps.
+// The map that JourneyMap makes from the steps.
 JourneyMap MapOf(const JourneySettings& settings, const std::vector<JourneyStep>& steps);
 // Adds flow profiles, unlike from step to step; some steps have none.
 std::vector<JourneyStep> WithProfiles(std::vector<JourneyStep> steps);

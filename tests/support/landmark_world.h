@@ -1,4 +1,4 @@
-// A made-up route of landmarks for tests of the localisation: what is seen from any point of it, as
+// A synthetic route of landmarks for tests of the localisation: the view from any place of it, as
 // noisy fingerprints. Deterministic.
 #ifndef TESTS_SUPPORT_LANDMARK_WORLD_H_
 #define TESTS_SUPPORT_LANDMARK_WORLD_H_
@@ -17,7 +17,7 @@ namespace homing {
 
 class LandmarkWorld {
  public:
-  // Half the width of what a camera sees, steps of the outbound journey.
+  // Half the width of a camera's view, steps of the outbound journey.
   static constexpr double kHalfView = 8;
 
   LandmarkWorld(std::uint64_t seed, int steps) : steps_(steps), engine_(seed) {
@@ -33,7 +33,7 @@ class LandmarkWorld {
     std::erase_if(posts_, [&](const Post&) { return Uniform(0, 1) < share; });
   }
 
-  // What is seen `at` steps from home; noisy, at most two a side, low x first.
+  // The view at `at` steps from home; noisy, at most two landmarks a side, low x first.
   SeenSides See(double at) {
     SeenSides seen;
     for (const Post& post : posts_) {

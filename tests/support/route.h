@@ -1,4 +1,4 @@
-// A made-up route for tests of the session layer and the server: what the cameras see at each
+// A synthetic route for tests of the session layer and the server: the cameras' views at each
 // place, as flow vectors or as frames. Deterministic.
 #ifndef TESTS_SUPPORT_ROUTE_H_
 #define TESTS_SUPPORT_ROUTE_H_

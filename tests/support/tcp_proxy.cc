@@ -11,6 +11,8 @@
 #include <array>
 #include <chrono>
 
+#include "homing/base/mutex.h"
+
 namespace homing {
 namespace {
 
@@ -84,12 +86,12 @@ void TcpProxy::SetUpstream(const std::string& upstream) {
 }
 
 void TcpProxy::CutAll() {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   for (const auto& link : links_) link->cut = true;
 }
 
 void TcpProxy::FreezeAll() {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   for (const auto& link : links_) link->frozen = true;
 }
 
@@ -112,7 +114,7 @@ void TcpProxy::Accept() {
     SendAtOnce(link->server);
     link->left = cut_after_;
     ++connections_;
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     // A thread that has ended and is not joined keeps its stack.
     std::erase_if(links_, [](const auto& old) {
       if (!old->over) return false;

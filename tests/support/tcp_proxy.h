@@ -5,10 +5,11 @@
 #include <atomic>
 #include <cstdint>
 #include <memory>
-#include <mutex>
 #include <string>
 #include <thread>
 #include <vector>
+
+#include "homing/base/mutex.h"
 
 namespace homing {
 
@@ -43,7 +44,7 @@ class TcpProxy {
   struct Link;
   void Accept();
   void Carry(const std::shared_ptr<Link>& link);
-  // Passes on what came; false: the link is over.
+  // Forwards received data; false: the link has ended.
   bool Pass(Link* link, int from, int to);
 
   std::atomic<std::uint16_t> upstream_port_ = 0;
@@ -54,7 +55,7 @@ class TcpProxy {
   std::atomic<std::int64_t> bytes_ = 0;
   std::atomic<int> connections_ = 0;
   std::atomic<bool> stopping_ = false;
-  std::mutex mutex_;
+  Mutex mutex_;
   std::vector<std::shared_ptr<Link>> links_;
   std::thread acceptor_;
 };

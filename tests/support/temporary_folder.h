@@ -1,4 +1,4 @@
-// A folder of its own for a test, gone at the end.
+// A new folder for one test, removed at the end.
 #ifndef TESTS_SUPPORT_TEMPORARY_FOLDER_H_
 #define TESTS_SUPPORT_TEMPORARY_FOLDER_H_
 

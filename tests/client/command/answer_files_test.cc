@@ -41,7 +41,8 @@ std::map<std::string, std::int64_t> CountImages(const std::string& path) {
 std::int64_t SendAll(AnswerBag* bag, bool send_flow, std::int64_t lag) {
   const std::string scene = "sim:street,length=4,fps=2";
   auto cameras = OpenCameras(scene, send_flow ? "" : scene);
-  CameraObservations observations(*std::move(cameras),
+  auto instants = CameraInstants::Create(*std::move(cameras), FrameChoice());
+  CameraObservations observations(*std::move(instants),
                                   send_flow ? std::make_optional(FlowOptions()) : std::nullopt);
   const auto watched = bag->Watch(&observations);
   std::int64_t sent = 0;

@@ -16,7 +16,7 @@
 namespace homing::client {
 namespace {
 
-// Draws into a file of its own and reads it back.
+// Draws into a new file and reads it back.
 class PicturesTest : public ::testing::Test {
  protected:
   ~PicturesTest() override { std::filesystem::remove(path_); }

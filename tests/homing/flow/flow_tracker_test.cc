@@ -187,6 +187,11 @@ INSTANTIATE_TEST_SUITE_P(
                                 [](FlowOptions& o) { o.normalization_floor = 0; }},
                       BadOption{"min_eigenvalue", [](FlowOptions& o) { o.min_eigenvalue = 0; }},
                       BadOption{"cell_px", [](FlowOptions& o) { o.cell_px = 0; }},
+                      BadOption{"cell_px 1 must be at least 5",
+                                [](FlowOptions& o) {
+                                  o.working_width_px = 2048;
+                                  o.cell_px = 1;
+                                }},
                       BadOption{"window_px", [](FlowOptions& o) { o.window_px = 16; }},
                       BadOption{"pyramid_levels", [](FlowOptions& o) { o.pyramid_levels = 7; }},
                       BadOption{"max_forward_backward_px",

@@ -198,7 +198,7 @@ TEST(ObservationFlowTest, AnErrorOfOneCameraLeavesBothAsBefore) {
   bad.break_before = true;
   std::get<Frame>(bad.views[1]).height = 119;
   EXPECT_THAT(disturbed.Compute(bad),
-              StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("right: frame.data has")));
+              StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("right.frame.data: ")));
   const ObservedFlow a = disturbed.Compute(Both(second, second)).value();
   const ObservedFlow b = undisturbed.Compute(Both(second, second)).value();
   ASSERT_TRUE(a.fields[0].has_value() && a.fields[1].has_value());

@@ -93,10 +93,51 @@ TEST(DecodeGrayTest, LargePngInOneOrManyChunksIsDecoded) {
   EXPECT_EQ(MaxDifference(DecodeGray({FrameEncoding::kPng, 0, 0, bytes}).value(), noise), 0);
 }
 
-TEST(DecodeGrayTest, DeepPngKeepsItsUpperByte) {
+// As a thermal camera writes it: few of the 65536 values, one dead pixel.
+cv::Mat Thermal() {
+  cv::Mat deep(40, 50, CV_16UC1);
+  for (int y = 0; y < deep.rows; ++y) {
+    for (int x = 0; x < deep.cols; ++x) {
+      deep.at<std::uint16_t>(y, x) = static_cast<std::uint16_t>(7000 + 51 * y);
+    }
+  }
+  deep.at<std::uint16_t>(20, 20) = 65535;
+  return deep;
+}
+
+TEST(DecodeGrayTest, DeepPngIsStretchedToTheRangeItUses) {
+  const cv::Mat deep = Thermal();
+  cv::Mat with_alpha(deep.size(), CV_16UC2, cv::Scalar(0, 9));
+  cv::insertChannel(deep, with_alpha, 0);
+  for (const std::string& bytes : {EncodePng(deep, {SPNG_COLOR_TYPE_GRAYSCALE, 16}),
+                                   EncodePng(with_alpha, {SPNG_COLOR_TYPE_GRAYSCALE_ALPHA, 16})}) {
+    const cv::Mat gray = DecodeGray({FrameEncoding::kPng, 0, 0, bytes}).value();
+    EXPECT_EQ(gray.at<unsigned char>(0, 0), 0);
+    EXPECT_NEAR(gray.at<unsigned char>(20, 5), 131, 1);
+    EXPECT_EQ(gray.at<unsigned char>(39, 49), 255);
+  }
+}
+
+TEST(DecodeGrayTest, DeepPngOfOneValueIsGrey) {
   const cv::Mat deep(20, 20, CV_16UC1, cv::Scalar(0x8040));
   const std::string bytes = EncodePng(deep, {SPNG_COLOR_TYPE_GRAYSCALE, 16});
-  EXPECT_EQ(DecodeGray({FrameEncoding::kPng, 0, 0, bytes}).value().at<unsigned char>(9, 9), 0x80);
+  EXPECT_EQ(DecodeGray({FrameEncoding::kPng, 0, 0, bytes}).value().at<unsigned char>(9, 9), 128);
+}
+
+TEST(DecodeGrayTest, JpegWithStrayBytesBeforeAMarkerIsTaken) {
+  cv::Mat image(48, 64, CV_8UC1);
+  cv::RNG(5).fill(image, cv::RNG::UNIFORM, 0, 256);
+  const std::string whole = EncodeJpeg(image);
+  const std::string end("\xFF\xD9", 2);
+  ASSERT_EQ(whole.substr(whole.size() - 2), end);
+  const cv::Mat expected = DecodeGray({FrameEncoding::kJpeg, 0, 0, whole}).value();
+  for (const std::string& bytes :
+       {whole.substr(0, whole.size() - 2) + std::string("\0\0\0", 3) + end,
+        whole + std::string(100, '\0'), whole + "text behind the image"}) {
+    const auto gray = DecodeGray({FrameEncoding::kJpeg, 0, 0, bytes});
+    ASSERT_THAT(gray, IsOk());
+    EXPECT_EQ(MaxDifference(*gray, expected), 0);
+  }
 }
 
 TEST(DecodeGrayTest, AlphaIsDropped) {

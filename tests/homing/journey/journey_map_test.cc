@@ -65,10 +65,10 @@ TEST(JourneyMapTest, ExtendsWithEmptySteps) {
 }
 
 TEST(JourneyMapTest, RefusesAStepThatIsThere) {
-  EXPECT_THAT(Refusal(StepOf(0, {})), StatusIs(absl::StatusCode::kInvalidArgument,
-                                               HasSubstr("step is 0, must be in [1, ")));
+  EXPECT_THAT(Refusal(StepOf(0, {})),
+              StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("step: 0 must be in [1, ")));
   EXPECT_THAT(Refusal(StepOf(kMostSteps, {})),
-              StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("step is 20000000")));
+              StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("step: 20000000")));
 }
 
 TEST(JourneyMapTest, StepsWithoutASequenceFollowTheOneBefore) {

@@ -199,7 +199,7 @@ TEST(LocalizerOptionsTest, NamesTheOptionThatIsOutOfRange) {
   LocalizerOptions options;
   options.match.max_matches = 0;
   EXPECT_THAT(Validate(options),
-              StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("match: max_matches is 0")));
+              StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("match.max_matches: 0")));
   options = {};
   options.position.likelihood.temper = 0;
   EXPECT_THAT(Validate(options), StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("temper")));

@@ -11,11 +11,11 @@ TEST(PositionOptionsTest, NamesTheOptionThatIsOutOfRange) {
   PositionOptions options;
   options.tolerance_steps = -1;
   EXPECT_THAT(Validate(options),
-              StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("tolerance_steps is -1")));
+              StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("tolerance_steps: -1")));
   options = {};
   options.match_probability = 0;
   EXPECT_THAT(Validate(options),
-              StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("match_probability is 0")));
+              StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("match_probability: 0")));
   options = {};
   options.unknown_probability = 1.5;
   EXPECT_THAT(Validate(options),

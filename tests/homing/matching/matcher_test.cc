@@ -159,9 +159,9 @@ TEST(MatcherTest, ReturningRobotsCamerasHaveChangedSides) {
 TEST(MatchOptionsTest, NamesTheOptionThatIsOutOfRange) {
   EXPECT_THAT(Validate(MatchOptions{}), IsOk());
   EXPECT_THAT(Validate(MatchOptions{.max_matches = 0}),
-              StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("max_matches is 0")));
+              StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("max_matches: 0")));
   EXPECT_THAT(Validate(MatchOptions{.threshold = 1.5}),
-              StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("threshold is 1.5")));
+              StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("threshold: 1.5")));
 }
 
 }  // namespace

@@ -55,15 +55,13 @@ TEST(DeviationModelTest, SurvivalKeepsItsDigitsInTheTail) {
   EXPECT_NEAR(Survival(model, std::exp(10.0)) / 7.6198530241605260660e-24, 1, 1e-12);
 }
 
-TEST(DeviationModelTest, RefusesWhatIsNoModel) {
+TEST(DeviationModelTest, RefusesInvalidModels) {
   DeviationModel model;
   model.sigma = 0;
-  EXPECT_THAT(Validate(model),
-              StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("sigma is 0")));
+  EXPECT_THAT(Validate(model), StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("sigma: 0")));
   model = {};
   model.mu = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_THAT(Validate(model),
-              StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("mu is nan")));
+  EXPECT_THAT(Validate(model), StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("mu: nan")));
   model = {};
   model.width = -1;
   EXPECT_THAT(Validate(model), StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("width")));

@@ -97,14 +97,14 @@ TEST(DeviationTrainingTest, NamesTheFieldAndTheLimit) {
   options.observations = 9;
   EXPECT_THAT(TrainDeviationModel(options),
               StatusIs(absl::StatusCode::kInvalidArgument,
-                       HasSubstr("observations is 9, must be in [10, 1000000]")));
+                       HasSubstr("observations: 9 must be in [10, 1000000]")));
   options = {};
   options.focal_px = 0;
   EXPECT_THAT(Validate(options), StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("focal")));
   options = {};
   options.distance_mean_m = 1;
   EXPECT_THAT(Validate(options),
-              StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("distance_mean_m is 1")));
+              StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("distance_mean_m: 1")));
 }
 
 }  // namespace

@@ -74,11 +74,12 @@ TEST(ObservationConversion, AFrameViewsTheBytesOfTheMessage) {
 }
 
 TEST(ObservationConversion, RefusesAnObservationThatIsNone) {
-  ExpectRefused([](v1::Observation& m) { m.set_sequence(-1); }, "observation.sequence is -1");
-  ExpectRefused([](v1::Observation& m) { m.clear_left(); }, "at least one camera");
-  ExpectRefused([](v1::Observation& m) { m.mutable_left()->clear_flow_vectors(); }, "one camera");
+  ExpectRefused([](v1::Observation& m) { m.set_sequence(-1); }, "observation.sequence: -1");
+  ExpectRefused([](v1::Observation& m) { m.clear_left(); }, "observation.left: must be set unless");
+  ExpectRefused([](v1::Observation& m) { m.mutable_left()->clear_flow_vectors(); },
+                "observation.left");
   ExpectRefused([](v1::Observation& m) { m.mutable_capture_time()->set_seconds(-1); },
-                "capture_time.seconds is -1");
+                "capture_time.seconds: -1");
   ExpectRefused([](v1::Observation& m) { m.mutable_capture_time()->set_seconds(1LL << 60); },
                 "capture_time.seconds");
   ExpectRefused([](v1::Observation& m) { m.mutable_capture_time()->set_nanos(1'000'000'000); },
@@ -88,15 +89,16 @@ TEST(ObservationConversion, RefusesAnObservationThatIsNone) {
 TEST(ObservationConversion, RefusesVectorsThatAreNone) {
   const auto flow = [](v1::Observation& m) { return m.mutable_left()->mutable_flow_vectors(); };
   ExpectRefused([&](v1::Observation& m) { flow(m)->set_start_y(1, NAN); },
-                "observation.left.flow_vectors.start_y[1] is nan");
-  ExpectRefused([&](v1::Observation& m) { flow(m)->set_end_x(0, -INFINITY); }, "end_x[0] is -inf");
-  ExpectRefused([&](v1::Observation& m) { flow(m)->set_end_y(2, 1e30F); }, "end_y[2] is 1e+30");
+                "observation.left.flow_vectors.start_y[1]: nan");
+  ExpectRefused([&](v1::Observation& m) { flow(m)->set_end_x(0, -INFINITY); }, "end_x[0]: -inf");
+  ExpectRefused([&](v1::Observation& m) { flow(m)->set_end_y(2, 1e30F); }, "end_y[2]: 1e+30");
   ExpectRefused([&](v1::Observation& m) { flow(m)->add_end_y(1); },
-                "end_y has 4 entries: must have as many as start_x, 3");
-  ExpectRefused([&](v1::Observation& m) { flow(m)->clear_start_x(); }, "start_y has 3 entries");
-  ExpectRefused([&](v1::Observation& m) { flow(m)->set_width(0); }, "width is 0: must be 1");
-  ExpectRefused([&](v1::Observation& m) { flow(m)->set_height(-240); }, "height is -240");
-  ExpectRefused([&](v1::Observation& m) { flow(m)->set_width(8193); }, "1 to 8192 px");
+                "end_y: 4 must be 3 entries, as start_x");
+  ExpectRefused([&](v1::Observation& m) { flow(m)->clear_start_x(); },
+                "start_y: 3 must be 0 entries");
+  ExpectRefused([&](v1::Observation& m) { flow(m)->set_width(0); }, "width: 0 must be in [1, ");
+  ExpectRefused([&](v1::Observation& m) { flow(m)->set_height(-240); }, "height: -240");
+  ExpectRefused([&](v1::Observation& m) { flow(m)->set_width(8193); }, "in [1, 8192] px");
 }
 
 TEST(ObservationConversion, RefusesTooManyVectorsBeforeItReadsThem) {
@@ -104,7 +106,7 @@ TEST(ObservationConversion, RefusesTooManyVectorsBeforeItReadsThem) {
   EXPECT_THAT(FromProto(message, "f", {.max_vectors = 11}), IsOk());
   EXPECT_THAT(FromProto(message, "f", {.max_vectors = 10}),
               StatusIs(absl::StatusCode::kInvalidArgument,
-                       HasSubstr("f.start_x has 11 entries: must have at most 10")));
+                       HasSubstr("f.start_x: 11 must be at most 10 entries")));
   ExpectRefused(
       [](v1::Observation& m) {
         m.mutable_left()->mutable_flow_vectors()->mutable_start_x()->Resize(1'000'000, 1);
@@ -121,11 +123,11 @@ TEST(ObservationConversion, RefusesFramesThatAreNone) {
     message->set_data("x");
     return message;
   };
-  ExpectRefused([&](v1::Observation& m) { frame(m)->clear_encoding(); }, "frame.encoding is 0");
-  ExpectRefused([&](v1::Observation& m) { frame(m)->clear_data(); }, "frame.data is empty");
-  ExpectRefused([&](v1::Observation& m) { frame(m)->set_width(0); }, "frame.width is 0");
-  ExpectRefused([&](v1::Observation& m) { frame(m)->set_height(-1); }, "frame.height is -1");
-  ExpectRefused([&](v1::Observation& m) { frame(m)->set_height(60'000); }, "60000: must be 1");
+  ExpectRefused([&](v1::Observation& m) { frame(m)->clear_encoding(); }, "frame.encoding: 0");
+  ExpectRefused([&](v1::Observation& m) { frame(m)->clear_data(); }, "frame.data: must hold");
+  ExpectRefused([&](v1::Observation& m) { frame(m)->set_width(0); }, "frame.width: 0");
+  ExpectRefused([&](v1::Observation& m) { frame(m)->set_height(-1); }, "frame.height: -1");
+  ExpectRefused([&](v1::Observation& m) { frame(m)->set_height(60'000); }, "60000 must be in [1, ");
 }
 
 TEST(ObservationConversion, ACompressedFrameNeedsNoSize) {
@@ -135,7 +137,7 @@ TEST(ObservationConversion, ACompressedFrameNeedsNoSize) {
   EXPECT_THAT(FromProto(message, "frame"), IsOk());
   message.set_width(60'000);
   EXPECT_THAT(FromProto(message, "frame"),
-              StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("frame.width is 60000")));
+              StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("frame.width: 60000")));
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "homing/base/field_error.h"
 #include "tests/support/status_matchers.h"
 
 namespace homing::wire {
@@ -49,7 +50,7 @@ TEST(SettingsConversion, EverySettingComesBack) {
   EXPECT_TRUE(*back == settings);
 }
 
-TEST(SettingsConversion, LensesOfOtherModelsComeBack) {
+TEST(SettingsConversion, OtherLensModelsRoundTrip) {
   Camera rational = OddSettings().cameras[0];
   rational.distortion[7] = 0.0625;
   EXPECT_EQ(ToProto(rational).distortion_size(), 8);
@@ -65,10 +66,10 @@ TEST(SettingsConversion, LensesOfOtherModelsComeBack) {
   v1::Camera five = ToProto(fisheye);
   five.add_distortion(0);
   EXPECT_THAT(FromProto(five, "camera"),
-              StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("must have 0 or 4")));
+              StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("must be 0 or 4 entries")));
 }
 
-TEST(SettingsConversion, WhatIsUnsetIsTakenFromTheDefaults) {
+TEST(SettingsConversion, UnsetFieldsHaveTheDefaults) {
   const JourneySettings defaults = OddSettings();
   const auto settings = FromProto(v1::JourneySettings(), "settings", defaults);
   ASSERT_THAT(settings, IsOk());
@@ -94,13 +95,20 @@ void ExpectSettingsRefused(Change change, const std::string& why) {
               StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr(why)));
 }
 
+TEST(SettingsConversion, ARefusalNamesItsFieldForPrograms) {
+  v1::JourneySettings message = ToProto(OddSettings());
+  message.mutable_left_camera()->set_yaw_rad(3);
+  const absl::Status status = FromProto(message, "settings", JourneySettings()).status();
+  EXPECT_THAT(FieldOf(status).value_or(""), ::testing::StartsWith("settings.left_camera"));
+}
+
 TEST(SettingsConversion, RefusesWrongSettingsByName) {
   ExpectSettingsRefused([](v1::JourneySettings& m) { m.mutable_left_camera()->set_width(-1); },
-                        "settings.left_camera.width is -1: must be 0 to 8192");
+                        "settings.left_camera.width: -1 must be in [0, 8192] px");
   ExpectSettingsRefused([](v1::JourneySettings& m) { m.mutable_right_camera()->set_height(8193); },
-                        "settings.right_camera.height is 8193");
+                        "settings.right_camera.height: 8193");
   ExpectSettingsRefused([](v1::JourneySettings& m) { m.mutable_left_camera()->add_distortion(1); },
-                        "settings.left_camera.distortion has 6 entries: must have 0, 4, 5 or 8");
+                        "settings.left_camera.distortion: 6 must be 0, 4, 5 or 8 entries");
   ExpectSettingsRefused(
       [](v1::JourneySettings& m) { m.mutable_left_camera()->set_distortion(0, NAN); },
       "settings.left_camera: ");

@@ -76,7 +76,7 @@ TEST_F(ClientCertificatesTest, ARevokedOneIsRefusedAfterTheNextReload) {
   EXPECT_THAT(certificates->Check(lost), IsRefused("revoked"));
 }
 
-TEST_F(ClientCertificatesTest, WithoutAListInForceNobodyIsVouchedFor) {
+TEST_F(ClientCertificatesTest, WithoutAValidListEveryCertificateIsRefused) {
   Revoke({}, -std::chrono::hours(1));
   EXPECT_THAT(Open(folder_.File("crl"))->Check(Issue()), IsRefused("CRL has expired"));
   Write("crl/list.pem", MakeAuthority().Revoke("", {}, kDay).value());
@@ -86,7 +86,7 @@ TEST_F(ClientCertificatesTest, WithoutAListInForceNobodyIsVouchedFor) {
               StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("tls-crl-dir")));
 }
 
-TEST_F(ClientCertificatesTest, WhatCannotBeReadLeavesWhatWasReadBefore) {
+TEST_F(ClientCertificatesTest, AnUnreadableFileKeepsThePreviousContent) {
   const auto certificates = Open();
   const std::string good = Issue();
   Write("ca.pem", "nonsense");

@@ -80,7 +80,7 @@ TEST_F(IdentityFilesTest, FilesWithSecretsAreTheirOwnersAlone) {
               StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("cannot be written")));
 }
 
-TEST_F(IdentityFilesTest, ABadFileOfTokensIsRefusedWithoutRepeatingWhatMayBeSecret) {
+TEST_F(IdentityFilesTest, ABadFileOfTokensIsRefusedWithoutRepeatingSecrets) {
   const char* texts[] = {"[tokens]\n\"my-secret\" = \"robots/r1\"\n",
                          "[tokens]\n\"sha256:my-secret\" = \"robots/r1\"\n",
                          "[tokens]\nmy-secret\n", "my-secret = \"robots/r1\"\n",

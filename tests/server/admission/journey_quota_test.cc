@@ -1,4 +1,4 @@
-// What one robot may keep, and for how long.
+// The quota of one robot, and the age limit.
 #include "server/admission/journey_quota.h"
 
 #include "server/base/error_reason.h"
@@ -19,8 +19,18 @@ class JourneyQuotaTest : public SessionTest {
     record.create_time_ns = create_time_ns;
     ASSERT_THAT(catalog_->Create(record), IsOk());
     if (finished) {
-      ASSERT_THAT(catalog_->Finish(record.name, "writer", {}), IsOk());
+      ASSERT_THAT(catalog_->Finish(record.name, "writer", false, {}), IsOk());
     }
+  }
+  void ReopenReadOnly() {
+    queue_.reset();
+    catalog_.reset();
+    store_.reset();
+    storage::StoreOptions options;
+    options.url = folder_.Database();
+    options.read_only = true;
+    store_ = storage::OpenJourneyStore(options).value();
+    catalog_ = std::make_unique<JourneyCatalog>(store_.get());
   }
   bool IsThere(const std::string& id) { return catalog_->Get(Name(id)).ok(); }
   Limits limits_;
@@ -41,7 +51,7 @@ TEST_F(JourneyQuotaTest, AtTheLimitANewJourneyIsRefusedAndOneThatIsThereIsNot) {
   EXPECT_TRUE(IsThere("a"));
 }
 
-TEST_F(JourneyQuotaTest, OnlyWhenToldToTheOldestFinishedOneMakesRoom) {
+TEST_F(JourneyQuotaTest, WithDeleteOldestTheOldestFinishedOneIsDeleted) {
   limits_.max_robot_journeys = 3;
   limits_.delete_oldest = true;
   JourneyQuota quota(catalog_.get(), limits_);
@@ -63,7 +73,7 @@ TEST_F(JourneyQuotaTest, JourneysBeingRecordedAreNeverDeleted) {
   Make("a", 1, false);
   EXPECT_THAT(quota.CheckNew(Name("b")),
               StatusIs(absl::StatusCode::kResourceExhausted, HasSubstr("1 journeys")));
-  EXPECT_EQ(quota.DeleteExpired(1'000'000'000'000).value(), 0);
+  EXPECT_EQ(quota.DeleteExpired(1'000'000'000'000, 0).value(), 0);
   EXPECT_TRUE(IsThere("a"));
 }
 
@@ -80,17 +90,27 @@ TEST_F(JourneyQuotaTest, BytesAreThoseOfFingerprintsAndProfiles) {
   EXPECT_EQ(ReasonOf(full.CheckNew(Name("more"))).reason, "ROBOT_BYTES");
 }
 
-TEST_F(JourneyQuotaTest, FinishedJourneysPastTheirTimeAreDeletedOnlyWhenToldTo) {
+TEST_F(JourneyQuotaTest, WithDeleteAfterOldFinishedJourneysAreDeleted) {
   constexpr std::int64_t kSecond = 1'000'000'000;
   Make("old", 10 * kSecond, true);
   Make("new", 20 * kSecond, true);
-  EXPECT_EQ(JourneyQuota(catalog_.get(), limits_).DeleteExpired(100 * kSecond).value(), 0);
+  EXPECT_EQ(JourneyQuota(catalog_.get(), limits_).DeleteExpired(100 * kSecond, 0).value(), 0);
   limits_.delete_after_s = 5;
   JourneyQuota quota(catalog_.get(), limits_);
-  EXPECT_EQ(quota.DeleteExpired(15 * kSecond).value(), 0);
-  EXPECT_EQ(quota.DeleteExpired(16 * kSecond).value(), 1);
+  EXPECT_EQ(quota.DeleteExpired(15 * kSecond, 0).value(), 0);
+  EXPECT_EQ(quota.DeleteExpired(16 * kSecond, 11 * kSecond).value(), 0);
+  EXPECT_EQ(quota.DeleteExpired(16 * kSecond, 0).value(), 1);
   EXPECT_FALSE(IsThere("old"));
   EXPECT_TRUE(IsThere("new"));
+}
+
+TEST_F(JourneyQuotaTest, OfAReadOnlyStoreNothingIsDeletedAndNothingFails) {
+  Make("old", 1, true);
+  ReopenReadOnly();
+  limits_.delete_after_s = 1;
+  JourneyQuota quota(catalog_.get(), limits_);
+  EXPECT_THAT(quota.DeleteExpired(1'000'000'000'000, 0), IsOk());
+  EXPECT_TRUE(IsThere("old"));
 }
 
 }  // namespace

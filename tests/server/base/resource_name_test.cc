@@ -23,7 +23,7 @@ TEST(ResourceNameTest, WrongNamesAreRefusedWithFieldAndValue) {
         "robot/r/journeys/j", "robots/r/journeys/a b", "robots/r/journeys/\xc3\xa9",
         "robots/../journeys/j/..", "/robots/r/journeys/j"}) {
     EXPECT_THAT(ParseJourneyName(bad, "the_field"),
-                StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("the_field is ")))
+                StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("the_field: ")))
         << bad;
   }
 }
@@ -43,7 +43,7 @@ TEST(ResourceNameTest, TheWildcardIsAllowedInPatternsOnly) {
               StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("parent")));
 }
 
-TEST(ResourceNameTest, APatternCoversWhatItNames) {
+TEST(ResourceNameTest, APatternCoversTheNamesItMatches) {
   const JourneyName journey{"r", "j"};
   EXPECT_TRUE(Covers({"-", "-"}, journey));
   EXPECT_TRUE(Covers({"r", "-"}, journey));

@@ -46,7 +46,7 @@ TEST(StrandTest, RunsOnTheCallersThreadWhenNothingElseRunsOrWaits) {
   EXPECT_EQ(here, std::this_thread::get_id());
 }
 
-TEST(StrandTest, WhatComesWhileTheCallerRunsATaskWaitsForItsEnd) {
+TEST(StrandTest, TasksPostedDuringAnInlineTaskWaitForItsEnd) {
   std::vector<int> order;
   {
     WorkerPool pool(2);

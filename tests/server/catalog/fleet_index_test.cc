@@ -1,16 +1,15 @@
-// Queries over all journeys by the index say what the scan of all maps says, whatever happened to
-// the journeys before.
+// Queries over all journeys give the same answers by the index as by a scan of all maps, after any
+// changes to the journeys.
 #include "server/catalog/fleet_index.h"
 
 #include <algorithm>
-#include <condition_variable>
-#include <mutex>
 #include <thread>
 
 #include "absl/strings/str_cat.h"
+#include "homing/base/mutex.h"
 #include "server/session/landmark_query.h"
-#include "storage/forwarding_store.h"
 #include "tests/server/session/session_fixture.h"
+#include "tests/support/forwarding_store.h"
 #include "tests/support/status_matchers.h"
 
 namespace homing::server {
@@ -18,34 +17,34 @@ namespace {
 
 using ::testing::HasSubstr;
 
-// A store that does not list journeys until it is told to, with what it is told.
+// A store whose ListJourneys blocks until Release, and returns the status given there.
 class HeldStore final : public storage::ForwardingStore {
  public:
   using ForwardingStore::ForwardingStore;
   void Release(absl::Status status) {
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     released_ = std::move(status);
-    changed_.notify_all();
+    changed_.NotifyAll();
   }
 
   absl::StatusOr<std::vector<storage::JourneyRecord>> ListJourneys(const std::string& prefix,
                                                                    const std::string& after,
                                                                    int limit) override {
-    std::unique_lock lock(mutex_);
-    changed_.wait(lock, [this] { return released_.has_value(); });
+    MutexLock lock(mutex_);
+    while (!released_) changed_.Wait(mutex_);
     if (!released_->ok()) return *released_;
     return store_->ListJourneys(prefix, after, limit);
   }
 
  private:
-  std::mutex mutex_;
-  std::condition_variable changed_;
+  Mutex mutex_;
+  ConditionVariable changed_;
   std::optional<absl::Status> released_;
 };
 
 class FleetIndexTest : public SessionTest {
  protected:
-  // From here on the catalog has an index, which is built from what `from` lists.
+  // Gives the catalog an index, which is built from the journeys that `from` lists.
   void StartIndex(storage::JourneyStore* from) {
     queue_.reset();
     catalog_.reset();
@@ -107,7 +106,7 @@ class FleetIndexTest : public SessionTest {
   std::unique_ptr<FleetIndex> index_;
 };
 
-TEST_F(FleetIndexTest, AnswersAsTheScanFromWhatIsOnDisk) {
+TEST_F(FleetIndexTest, AnswersAsTheScanFromTheStore) {
   for (int i = 0; i < 4; ++i) Record(absl::StrCat("robots/r", i, "/journeys/j"), 10 + 5 * i);
   StartIndex(store_.get());
   AwaitReady();
@@ -141,7 +140,7 @@ TEST_F(FleetIndexTest, KnowsOfAnImportedJourney) {
   ExpectSameAnswers();
 }
 
-TEST_F(FleetIndexTest, WhatHappensWhileItIsBuiltCountsOnce) {
+TEST_F(FleetIndexTest, ChangesDuringTheBuildCountOnce) {
   Record("robots/r0/journeys/j", 10);
   Record("robots/r1/journeys/gone", 10);
   HeldStore held(store_.get());
@@ -189,12 +188,12 @@ TEST_F(FleetIndexTest, WithoutJourneysThereIsNothingToFind) {
               StatusIs(absl::StatusCode::kNotFound, HasSubstr("no journey")));
 }
 
-TEST_F(SessionTest, MapsThatNoOneUsesMakeRoomForOthers) {
+TEST_F(SessionTest, UnusedMapsAreEvicted) {
   for (int i = 0; i < 3; ++i) {
     const std::string name = absl::StrCat("robots/r", i, "/journeys/j");
     Create(name);
     RecordFlow(0, 5, name);
-    ASSERT_THAT(catalog_->Finish(name, "writer", {}), IsOk());
+    ASSERT_THAT(catalog_->Finish(name, "writer", false, {}), IsOk());
   }
   JourneyCatalog small(store_.get(), CatalogOptions{.cache_bytes = 1});
   const auto used = *small.Open("robots/r0/journeys/j");
@@ -202,6 +201,26 @@ TEST_F(SessionTest, MapsThatNoOneUsesMakeRoomForOthers) {
   ASSERT_THAT(small.Open("robots/r2/journeys/j"), IsOk());
   EXPECT_TRUE(unused.expired());
   EXPECT_EQ(*small.Open("robots/r0/journeys/j"), used);
+}
+
+TEST_F(SessionTest, AWildcardLoadsNoMoreMapsThanTheCacheHolds) {
+  for (int i = 0; i < 3; ++i) {
+    const std::string name = absl::StrCat("robots/r", i, "/journeys/j");
+    Create(name);
+    RecordFlow(0, 5, name);
+    ASSERT_THAT(catalog_->Finish(name, "writer", false, {}), IsOk());
+  }
+  LandmarkQuery query;
+  query.journey = "robots/-/journeys/-";
+  query.travel = Travel::kSame;
+  query.views[0] = test::FieldAt(2, Side::kLeft);
+  EXPECT_THAT(MatchLandmarks(catalog_.get(), query, {}), IsOk());
+  // Room for one map and the journeys' records.
+  JourneyCatalog small(store_.get(), CatalogOptions{.cache_bytes = 8000});
+  EXPECT_THAT(MatchLandmarks(&small, query, {}).status(),
+              StatusIs(absl::StatusCode::kResourceExhausted, HasSubstr("map-cache")));
+  query.journey = "robots/r1/journeys/j";
+  EXPECT_THAT(MatchLandmarks(&small, query, {}), IsOk());
 }
 
 }  // namespace

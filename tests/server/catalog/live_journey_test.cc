@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "server/session/localization_session.h"
-#include "storage/forwarding_store.h"
 #include "tests/server/session/session_fixture.h"
+#include "tests/support/forwarding_store.h"
 
 namespace homing::server {
 namespace {
@@ -166,7 +166,7 @@ TEST_F(LiveJourneyTest, OneDeletedWhileItsMapIsLoadedIsNotFoundAlsoIfAnotherTook
   ExpectMapAsStored();
 }
 
-TEST_F(LiveJourneyTest, AWriterWhoseTailCannotBeReadIsToldAndMayTryAgain) {
+TEST_F(LiveJourneyTest, AWriterWhoseTailCannotBeReadGetsAnErrorAndMayRetry) {
   RecordFlow(0, 10);
   StartOver();
   class TaillessStore final : public storage::ForwardingStore {
@@ -189,7 +189,7 @@ TEST_F(LiveJourneyTest, AWriterWhoseTailCannotBeReadIsToldAndMayTryAgain) {
   EXPECT_EQ(ear.AwaitAnswers(1)[0].next_sequence, 10);
 }
 
-// For ThreadSanitizer: several load at once what is being recorded.
+// For ThreadSanitizer: several threads load a journey that is being recorded.
 TEST_F(LiveJourneyTest, ReadersThatComeAtOnceFindAWholeMap) {
   constexpr int kSteps = 30;
   for (int round = 0; round < 5; ++round) {

@@ -64,7 +64,7 @@ TEST(WriterLeaseTest, TheRefusalSaysForProgramsHowLongTheLeaseLives) {
 TEST(WriterLeaseTest, AWriterIdIsPrintableAndShort) {
   EXPECT_THAT(CheckWriterId(std::string(128, 'w'), "writer_id"), IsOk());
   EXPECT_THAT(CheckWriterId(std::string(129, 'w'), "writer_id"),
-              StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("129")));
+              StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("at most 128")));
   EXPECT_THAT(CheckWriterId("a\nb", "writer_id"),
               StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("printable")));
 }

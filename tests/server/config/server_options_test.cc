@@ -4,6 +4,7 @@
 #include <fstream>
 #include <vector>
 
+#include "server/config/option_table.h"
 #include "tests/support/status_matchers.h"
 #include "tests/support/temporary_folder.h"
 
@@ -66,6 +67,8 @@ TEST_F(ServerOptionsTest, WrongUsageExitsWithTwo) {
   EXPECT_EQ(Parse({"--nonsense"}).exit_code, 2);
   EXPECT_EQ(Parse({"--workers", "many"}).exit_code, 2);
   EXPECT_EQ(Parse({"--config", "/nowhere.toml"}).exit_code, 2);
+  // A folder would be read as an empty file: no TLS, no tokens.
+  EXPECT_EQ(Parse({"--config", "/tmp"}).exit_code, 2);
   EXPECT_EQ(Parse({"--config", WriteFile("colour = 1\n").c_str()}).exit_code, 2);
   EXPECT_EQ(Parse({"--config", WriteFile("listen = [1]\n").c_str()}).exit_code, 2);
   EXPECT_EQ(Parse({"--config", WriteFile("listen = \n").c_str()}).exit_code, 2);
@@ -95,15 +98,41 @@ TEST_F(ServerOptionsTest, OffLoopbackNeedsTlsOrTheFlagThatSaysSo) {
   for (const char* address :
        {"0.0.0.0:0", "[::]:1", "10.0.0.1:1", "example.org:1", "127.example.org:1"}) {
     options.listen = address;
-    EXPECT_THAT(Validate(options),
-                StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("TLS is required")))
+    EXPECT_THAT(Validate(options), StatusIs(absl::StatusCode::kInvalidArgument,
+                                            HasSubstr("loopback address without TLS")))
         << address;
   }
   options.insecure = true;
   EXPECT_THAT(Validate(options), IsOk());
 }
 
-TEST_F(ServerOptionsTest, WhatItPrintsIsAFileThatGivesTheSame) {
+TEST_F(ServerOptionsTest, HealthOfTheSameEnvironmentTrustsTheServersCertificate) {
+  ServerCommand command = Parse({"healthcheck", "--tls-cert", "server.pem", "--tls-key", "k"});
+  EXPECT_EQ(command.health_trusted, "server.pem");
+  EXPECT_EQ(command.health_cert, "");
+  command = Parse({"healthcheck", "--tls-cert", "server.pem", "--tls-key", "k", "--ca", "ca.pem"});
+  EXPECT_EQ(command.health_trusted, "");
+  command = Parse({"healthcheck", "--tls-cert", "server.pem", "--server", "127.0.0.1:8"});
+  EXPECT_EQ(command.health_trusted, "");
+}
+
+TEST_F(ServerOptionsTest, AddressesHaveAValidPort) {
+  for (const char* address : {"127.0.0.1", "127.0.0.1:", "127.0.0.1:99999", "127.0.0.1:-1", ":1",
+                              "localhost:http", "http://127.0.0.1:1", "::1:1"}) {
+    ServerOptions options;
+    options.listen = address;
+    EXPECT_THAT(Validate(options),
+                StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("listen: ")))
+        << address;
+    options = ServerOptions();
+    options.http = address;
+    EXPECT_THAT(Validate(options),
+                StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("http: ")))
+        << address;
+  }
+}
+
+TEST_F(ServerOptionsTest, ItsOutputIsAFileWithTheSameOptions) {
   ServerOptions options;
   options.listen = "127.0.0.1:9";
   options.workers = 3;
@@ -122,8 +151,7 @@ TEST_F(ServerOptionsTest, MetricsAreOnLoopbackUnlessSaidOtherwise) {
   EXPECT_FALSE(HasHttp(Parse({"--http", "off"}).options));
   ServerOptions options = Parse({"--http", "0.0.0.0:1"}).options;
   EXPECT_FALSE(options.http_optional);
-  EXPECT_THAT(Validate(options),
-              StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("http is")));
+  EXPECT_THAT(Validate(options), StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("http: ")));
   options.insecure = true;
   EXPECT_THAT(Validate(options), IsOk());
 }
@@ -147,6 +175,11 @@ TEST_F(ServerOptionsTest, LimitsAreChecked) {
   options.tls_crl_dir = "crl";
   EXPECT_THAT(Validate(options),
               StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("tls-client-ca")));
+  // A camera's flow is never taken with more than 100,000 vectors.
+  options = {};
+  options.max_vectors = 100'001;
+  EXPECT_THAT(Validate(options),
+              StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("max-vectors")));
   options = {};
   options.max_message = 1;
   EXPECT_THAT(Validate(options),

@@ -194,10 +194,15 @@ TEST(JourneyArchive, RefusesContentThatNoMapHas) {
   ExpectRefused(Forge([](v1::JourneyMap& m) { m.set_landmarks(0, -1); }), "landmarks[0] is -1");
   ExpectRefused(Forge([](v1::JourneyMap& m) { m.set_landmarks(1, 0); }), "landmark 0");
   ExpectRefused(Forge([](v1::JourneyMap& m) { m.set_xs(0, NAN); }), "finite");
+  ExpectRefused(Forge([](v1::JourneyMap& m) { m.set_xs(0, -0.0F); }), "xs has -0");
+  ExpectRefused(Forge([](v1::JourneyMap& m) { m.set_ys(1, -0.0F); }), "ys has -0");
+  ExpectRefused(Forge([](v1::JourneyMap& m) { m.set_landmark_spreads(0, -0.0); }),
+                "spreads has -0");
+  ExpectRefused(Forge([](v1::JourneyMap& m) { m.set_step_count(2'000'001); }), "step_count is");
   ExpectRefused(Forge([](v1::JourneyMap& m) { m.set_counts(0, 0); }), "count");
   ExpectRefused(Forge([](v1::JourneyMap& m) { m.set_landmark_spreads(0, NAN); }), "spread");
   ExpectRefused(Forge([](v1::JourneyMap& m) { m.set_landmark_sides(0, v1::SIDE_UNSPECIFIED); }),
-                "landmark_sides[0] is 0");
+                "landmark_sides[0]: 0");
   ExpectRefused(Forge([](v1::JourneyMap& m) { m.set_end_time_ns(-5); }), "negative");
 }
 
@@ -210,10 +215,10 @@ TEST(JourneyArchive, RefusesSettingsThatAreWrongOrIncomplete) {
       "cell_px");
   ExpectRefused(
       Forge([](v1::JourneyMap& m) { m.mutable_settings()->mutable_left_camera()->set_width(-3); }),
-      "width is -3");
+      "width: -3");
 }
 
-TEST(JourneyArchive, RefusesWhatItDoesNotKnow) {
+TEST(JourneyArchive, RefusesUnknownContent) {
   ExpectRefused(Forge([](v1::JourneyMap& m) {
                   m.GetReflection()->MutableUnknownFields(&m)->AddVarint(1000, 5);
                 }),

@@ -96,7 +96,7 @@ TEST_F(JourneyServiceTest, WrongFieldsOfCreateAreNamed) {
   EXPECT_EQ(BadFieldOf(CreateWith(request)), "writer_id");
   request = Request();
   request.mutable_journey()->add_readers("everyone");
-  EXPECT_EQ(BadFieldOf(CreateWith(request)), "journey.readers");
+  EXPECT_EQ(BadFieldOf(CreateWith(request)), "journey.readers[0]");
   request = Request();
   request.mutable_journey()->mutable_settings()->mutable_left_camera()->set_width(-5);
   EXPECT_THAT(CreateWith(request), GrpcStatusIs(kInvalid, HasSubstr("-5")));
@@ -152,7 +152,7 @@ TEST_F(JourneyServiceTest, JourneysAreListedInOrderPageByPage) {
   EXPECT_EQ(BadFieldOf(List("r", 0, "", &page)), "parent");
 }
 
-TEST_F(JourneyServiceTest, ADeletedJourneyIsGoneAndItsWriterAborted) {
+TEST_F(JourneyServiceTest, ADeletedJourneyIsNotFoundAndItsWriterAborted) {
   ASSERT_THAT(Create(), IsGrpcOk());
   Recording recording(journeys_.get(), kJourney);
   recording.Record(test::FlowAt(0));
@@ -165,21 +165,25 @@ TEST_F(JourneyServiceTest, ADeletedJourneyIsGoneAndItsWriterAborted) {
 
 TEST_F(JourneyServiceTest, FinishingIsIdempotentAndOnlyForTheWriterWhileItsLeaseLives) {
   ASSERT_THAT(Create(), IsGrpcOk());
-  RecordFlow(0, 3);
+  {
+    Recording recording(journeys_.get(), kJourney);
+    recording.Record(test::FlowAt(0));
+    EXPECT_THAT(Finish(kJourney, ""), GrpcStatusIs(grpc::StatusCode::ABORTED, HasSubstr("force")));
+    EXPECT_THAT(recording.Close(), IsGrpcOk());
+  }
   EXPECT_THAT(Finish(kJourney, "other"),
-              GrpcStatusIs(grpc::StatusCode::ABORTED, HasSubstr("another writer")));
-  EXPECT_THAT(Finish(kJourney, ""),
               GrpcStatusIs(grpc::StatusCode::ABORTED, HasSubstr("another writer")));
   EXPECT_THAT(Finish(), IsGrpcOk());
   EXPECT_THAT(Finish(), IsGrpcOk());
   EXPECT_EQ(Get().state(), v1::Journey::STATE_FINISHED);
   ASSERT_THAT(Create("lapsed"), IsGrpcOk());
+  // Without a writer_id: as soon as no stream records it.
   RecordFlow(0, 3, "robots/r/journeys/lapsed");
-  Wait(std::chrono::seconds(15));
-  EXPECT_THAT(Finish("robots/r/journeys/lapsed", ""), IsGrpcOk());
+  const auto finish = [&] { return Finish("robots/r/journeys/lapsed", ""); };
+  EXPECT_THAT(AfterStreamEnd(finish), IsGrpcOk());
 }
 
-TEST_F(JourneyServiceTest, AliasingIsToldOfAMapWithProfiles) {
+TEST_F(JourneyServiceTest, AliasingIsReportedForAMapWithProfiles) {
   ASSERT_THAT(Create(), IsGrpcOk());
   v1::AnalyzeAliasingRequest request;
   request.set_name(kJourney);
@@ -247,6 +251,29 @@ TEST_F(JourneyServiceTest, AnImportedFileExportsToTheSameBytes) {
   EXPECT_EQ(copy.fingerprint_count(), Get().fingerprint_count());
   StartServer();
   EXPECT_EQ(Export("robots/q/journeys/copy"), file);
+}
+
+TEST_F(JourneyServiceTest, ACancelledImportStoresNothing) {
+  ASSERT_THAT(Create(), IsGrpcOk());
+  RecordFlow(0, 10);
+  const std::string file = Export();
+  for (int i = 0; i < 10; ++i) {
+    grpc::ClientContext context;
+    v1::ImportJourneyResponse response;
+    const auto stream = journeys_->ImportJourney(&context, &response);
+    v1::ImportJourneyRequest request;
+    request.set_name("robots/r/journeys/copy");
+    ASSERT_TRUE(stream->Write(request));
+    request.set_chunk(file);
+    ASSERT_TRUE(stream->Write(request));
+    context.TryCancel();
+    EXPECT_THAT(stream->Finish(), GrpcStatusIs(grpc::StatusCode::CANCELLED, HasSubstr("")));
+  }
+  // The server has ended them all once it has drained.
+  StartServer();
+  v1::ListJourneysResponse page;
+  ASSERT_THAT(List("robots/-", 0, "", &page), IsGrpcOk());
+  EXPECT_EQ(page.journeys_size(), 1);
 }
 
 TEST_F(JourneyServiceTest, WrongImportsAreRefused) {

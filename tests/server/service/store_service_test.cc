@@ -20,14 +20,14 @@ class StoreServiceTest : public ServerTest {
   }
 };
 
-TEST_F(StoreServiceTest, AServerOnTheCopyHasTheSameJourneysAndGoesOn) {
+TEST_F(StoreServiceTest, AServerOnTheCopyHasTheSameJourneysAndContinues) {
   ASSERT_THAT(Create(), IsGrpcOk());
   RecordFlow(0, 40);
   const std::string exported = Export();
   std::string file;
   ASSERT_THAT(BackUp(&file), IsGrpcOk());
   EXPECT_FALSE(std::ifstream(folder_.File("homing.db-backup")).good());
-  // What comes later is not in it.
+  // Later observations are not in the copy.
   RecordFlow(40, 60);
   server_.reset();
   std::ofstream(folder_.File("homing.db"), std::ios::binary | std::ios::trunc) << file;
@@ -38,7 +38,7 @@ TEST_F(StoreServiceTest, AServerOnTheCopyHasTheSameJourneysAndGoesOn) {
   EXPECT_EQ(Get().next_sequence(), 50);
 }
 
-TEST_F(StoreServiceTest, RecordingGoesOnWhileACopyIsTaken) {
+TEST_F(StoreServiceTest, RecordingContinuesDuringABackup) {
   ASSERT_THAT(Create(), IsGrpcOk());
   RecordFlow(0, 10);
   auto copies = std::async(std::launch::async, [this] {

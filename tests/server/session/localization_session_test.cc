@@ -80,9 +80,9 @@ TEST_F(LocalizationSessionTest, NumbersMayBeginAnywhereAndThenHaveNoGap) {
   const auto session = Open().value();
   ASSERT_THAT(session->Localize(test::FlowAt(7, 5)), IsOk());
   EXPECT_THAT(session->Localize(test::FlowAt(9, 6)),
-              StatusIs(absl::StatusCode::kOutOfRange, HasSubstr("8 is due")));
+              StatusIs(absl::StatusCode::kOutOfRange, HasSubstr("must be 8")));
   EXPECT_THAT(session->Localize(test::FlowAt(7, 5)),
-              StatusIs(absl::StatusCode::kOutOfRange, HasSubstr("8 is due")));
+              StatusIs(absl::StatusCode::kOutOfRange, HasSubstr("must be 8")));
   EXPECT_THAT(session->Localize(test::FlowAt(8, 6)), IsOk());
 }
 
@@ -151,7 +151,7 @@ TEST_F(LocalizationSessionTest, FingerprintsAreMatchedAsTheyAre) {
               StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("nan")));
 }
 
-// For ThreadSanitizer: writers, readers and those who list, finish and take over, all at once.
+// For ThreadSanitizer: writers, readers, lists, finishes and takeovers at the same time.
 TEST_F(LocalizationSessionTest, RecordingAndLocalisingAtOnceLosesNothing) {
   constexpr int kWriters = 3;
   constexpr int kPlaces = 60;

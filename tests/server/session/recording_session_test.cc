@@ -71,14 +71,14 @@ TEST_F(RecordingSessionTest, TimesInMemoryAreThoseOnDisk) {
   EXPECT_EQ(live.end_time_ns, stored.end_time_ns);
 }
 
-TEST_F(RecordingSessionTest, AGapSaysWhichNumberIsDueAfterTheAnswersBefore) {
+TEST_F(RecordingSessionTest, AGapNamesTheExpectedNumberAfterEarlierAnswers) {
   Ear ear;
   const auto session = Open(&ear).value();
   session->Record(test::FlowAt(0), {});
   session->Record(test::FlowAt(1), {});
   session->Record(test::FlowAt(5), {});
   const absl::Status end = ear.AwaitEnd();
-  EXPECT_THAT(end, StatusIs(absl::StatusCode::kOutOfRange, "observation.sequence is 5; 2 is due"));
+  EXPECT_THAT(end, StatusIs(absl::StatusCode::kOutOfRange, "observation.sequence: 5 must be 2"));
   EXPECT_EQ(ReasonOf(end).reason, "SEQUENCE_GAP");
   EXPECT_EQ(ReasonOf(end).metadata.at("due"), "2");
   EXPECT_EQ(ear.AwaitAnswers(3).size(), 3u);
@@ -147,7 +147,7 @@ TEST_F(RecordingSessionTest, FramesThatGoOnWithoutLookBackHaveAGapUnlessMarkedAs
   Ear deaf;
   const auto hasty = Open(&deaf).value();
   hasty->Record(FrameAt(3), {});
-  EXPECT_THAT(deaf.AwaitEnd(), StatusIs(absl::StatusCode::kOutOfRange, HasSubstr("2 is due")));
+  EXPECT_THAT(deaf.AwaitEnd(), StatusIs(absl::StatusCode::kOutOfRange, HasSubstr("must be 2")));
   Ear ear;
   const auto session = Open(&ear).value();
   Observation marked = FrameAt(3);
@@ -187,8 +187,8 @@ TEST_F(RecordingSessionTest, TheSameWriterTakesOverAndTheOldStreamIsAborted) {
   old_session->Record(test::FlowAt(0), {});
   Ear ear;
   const auto session = Open(&ear).value();
-  EXPECT_THAT(old_ear.AwaitEnd(), StatusIs(absl::StatusCode::kAborted, HasSubstr("took it over")));
-  // What the old stream had on its way is counted in.
+  EXPECT_THAT(old_ear.AwaitEnd(), StatusIs(absl::StatusCode::kAborted, HasSubstr("taken over")));
+  // The old stream's pending observations count.
   EXPECT_EQ(ear.AwaitAnswers(1)[0].next_sequence, 1);
   old_session->Record(test::FlowAt(1, 50), {});
   session->Record(test::FlowAt(1), {});
@@ -205,28 +205,28 @@ TEST_F(RecordingSessionTest, AnotherWriterIsRefusedWhileTheLeaseLives) {
   EXPECT_THAT(Open(&other, start + seconds(24), "other"),
               StatusIs(absl::StatusCode::kAborted, HasSubstr("another writer holds")));
   EXPECT_THAT(Open(&other, start + seconds(25), "other"), IsOk());
-  EXPECT_THAT(ear.AwaitEnd(), StatusIs(absl::StatusCode::kAborted, HasSubstr("took it over")));
+  EXPECT_THAT(ear.AwaitEnd(), StatusIs(absl::StatusCode::kAborted, HasSubstr("taken over")));
   EXPECT_EQ(store_->GetJourney(kJourney)->writer_id, "other");
 }
 
 TEST_F(RecordingSessionTest, AFinishedJourneyTakesNoWriter) {
   RecordFlow(0, 3);
-  ASSERT_THAT(catalog_->Finish(kJourney, "writer", {}), IsOk());
+  ASSERT_THAT(catalog_->Finish(kJourney, "writer", false, {}), IsOk());
   Ear ear;
   EXPECT_THAT(Open(&ear), StatusIs(absl::StatusCode::kFailedPrecondition, HasSubstr("finished")));
   OpenStore(0);
   EXPECT_THAT(Open(&ear), StatusIs(absl::StatusCode::kFailedPrecondition, HasSubstr("finished")));
 }
 
-TEST_F(RecordingSessionTest, FinishingEndsTheStreamAfterWhatIsOnItsWay) {
+TEST_F(RecordingSessionTest, FinishingEndsTheStreamAfterPendingAnswers) {
   Ear ear;
   const auto session = Open(&ear).value();
   for (int i = 0; i < 20; ++i) {
     session->Record(test::FlowAt(i), {});
   }
-  EXPECT_THAT(catalog_->Finish(kJourney, "other", {}),
+  EXPECT_THAT(catalog_->Finish(kJourney, "other", false, {}),
               StatusIs(absl::StatusCode::kAborted, HasSubstr("another writer")));
-  const auto finished = catalog_->Finish(kJourney, "writer", {});
+  const auto finished = catalog_->Finish(kJourney, "writer", false, {});
   ASSERT_THAT(finished, IsOk());
   EXPECT_EQ(finished->next_sequence, 20);
   EXPECT_EQ(finished->state, storage::JourneyState::kFinished);
@@ -279,7 +279,7 @@ TEST_F(RecordingSessionTest, AnUnknownJourneyIsNotFoundAndABadNameInvalid) {
               StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("config.writer_id")));
 }
 
-TEST_F(RecordingSessionTest, ABadObservationEndsTheStreamAndTheNextGoesOn) {
+TEST_F(RecordingSessionTest, ABadObservationEndsTheStreamAndTheNextStreamContinues) {
   {
     Ear ear;
     const auto session = Open(&ear).value();

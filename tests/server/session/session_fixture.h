@@ -1,16 +1,15 @@
-// A store on disk with what the session layer keeps over it, and a listener that can be waited for.
+// A store on disk with the session layer's objects, and a listener that tests can wait for.
 #ifndef TESTS_SERVER_SESSION_SESSION_FIXTURE_H_
 #define TESTS_SERVER_SESSION_SESSION_FIXTURE_H_
 
 #include <gtest/gtest.h>
 
-#include <condition_variable>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "homing/base/mutex.h"
 #include "server/catalog/journey_catalog.h"
 #include "server/session/recording_session.h"
 #include "storage/commit_queue.h"
@@ -22,42 +21,42 @@ namespace homing::server {
 
 inline constexpr char kJourney[] = "robots/r/journeys/out";
 
-// What a recording stream hears; the listener may outlive it. Waits have no time in them: a lost
-// answer is a test that hangs until the runner ends it.
+// The answers of a recording stream; its listener may outlive it. Waits have no timeout: a lost
+// answer makes the test hang until the runner ends it.
 class Ear {
  public:
   RecordingListener Listener() {
     return {[heard = heard_](RecordingAnswer answer) {
-              const std::lock_guard lock(heard->mutex);
+              const MutexLock lock(heard->mutex);
               heard->answers.push_back(std::move(answer));
-              heard->changed.notify_all();
+              heard->changed.NotifyAll();
             },
             [heard = heard_](absl::Status status) {
-              const std::lock_guard lock(heard->mutex);
+              const MutexLock lock(heard->mutex);
               heard->end = std::move(status);
-              heard->changed.notify_all();
+              heard->changed.NotifyAll();
             }};
   }
   // The first answer is one of them.
   std::vector<RecordingAnswer> AwaitAnswers(std::size_t count) {
-    std::unique_lock lock(heard_->mutex);
-    heard_->changed.wait(lock, [&] { return heard_->answers.size() >= count || heard_->end; });
+    MutexLock lock(heard_->mutex);
+    while (heard_->answers.size() < count && !heard_->end) heard_->changed.Wait(heard_->mutex);
     return heard_->answers;
   }
   absl::Status AwaitEnd() {
-    std::unique_lock lock(heard_->mutex);
-    heard_->changed.wait(lock, [&] { return heard_->end.has_value(); });
+    MutexLock lock(heard_->mutex);
+    while (!heard_->end) heard_->changed.Wait(heard_->mutex);
     return *heard_->end;
   }
   bool ended() {
-    const std::lock_guard lock(heard_->mutex);
+    const MutexLock lock(heard_->mutex);
     return heard_->end.has_value();
   }
 
  private:
   struct Heard {
-    std::mutex mutex;
-    std::condition_variable changed;
+    Mutex mutex;
+    ConditionVariable changed;
     std::vector<RecordingAnswer> answers;
     std::optional<absl::Status> end;
   };

@@ -1,0 +1,112 @@
+#include "client/file/output_file.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <thread>
+
+#include "absl/strings/str_cat.h"
+
+namespace homing::client {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::chrono::milliseconds kReaderCheck{50};
+
+using Write = std::function<absl::Status(std::ostream&)>;
+
+// Until `file` is closed; the system's reason if that fails.
+// `name`: of the file that the user knows.
+absl::Status WriteTo(const std::string& path, const std::string& name, const Write& write) {
+  errno = 0;
+  std::ofstream file(path, std::ios::binary | std::ios::trunc);
+  if (!file) return CannotWrite(name, errno);
+  absl::Status status = write(file);
+  errno = 0;
+  file.close();
+  if (status.ok() && !file) status = CannotWrite(name, errno == 0 ? ENOSPC : errno);
+  return status;
+}
+
+// Beside the file and renamed, so that the file is whole or as it was.
+absl::Status Replace(const fs::path& path, const fs::file_status& before, const Write& write) {
+  const std::string part = path.string() + ".part";
+  absl::Status status = WriteTo(part, path.string(), write);
+  std::error_code error;
+  if (status.ok() && fs::exists(before)) fs::permissions(part, before.permissions(), error);
+  if (status.ok() && std::rename(part.c_str(), path.c_str()) != 0) {
+    status = CannotWrite(path.string(), errno);
+  }
+  if (!status.ok()) fs::remove(part, error);
+  return status;
+}
+
+// Opening a pipe that nobody reads would block, whatever signal comes.
+absl::Status AwaitReader(const std::string& path, const std::stop_token& stop) {
+  while (!stop.stop_requested()) {
+    const int pipe = ::open(path.c_str(), O_WRONLY | O_NONBLOCK | O_CLOEXEC);
+    if (pipe >= 0) {
+      ::close(pipe);
+      return absl::OkStatus();
+    }
+    if (errno != ENXIO) return CannotWrite(path, errno);
+    std::this_thread::sleep_for(kReaderCheck);
+  }
+  return absl::CancelledError(absl::StrCat("stopped; nobody reads ", path));
+}
+
+// The administrator could write it all the same, but was not meant to.
+bool IsReadOnly(const fs::file_status& file) {
+  constexpr fs::perms kWritable =
+      fs::perms::owner_write | fs::perms::group_write | fs::perms::others_write;
+  return fs::is_regular_file(file) && (file.permissions() & kWritable) == fs::perms::none;
+}
+
+}  // namespace
+
+absl::Status CannotWrite(const std::string& path, int error) {
+  return absl::ErrnoToStatus(error, absl::StrCat("cannot write ", path));
+}
+
+absl::Status CheckWritable(const std::string& path) {
+  std::error_code error;
+  const fs::file_status before = fs::status(path, error);
+  if (IsReadOnly(before)) return CannotWrite(path, EACCES);
+  if (fs::is_directory(before)) return CannotWrite(path, EISDIR);
+  // Opening and closing a pipe would end its reader.
+  if (fs::exists(before) && !fs::is_regular_file(before)) return absl::OkStatus();
+  errno = 0;
+  const std::ofstream file(path, std::ios::binary | std::ios::app);
+  return file ? absl::OkStatus() : CannotWrite(path, errno);
+}
+
+absl::StatusOr<std::uintmax_t> WriteOutputFile(const std::string& path, const Write& write,
+                                               const std::stop_token& stop) {
+  std::error_code error;
+  // A link stays a link: what it leads to is replaced.
+  fs::path target = fs::is_symlink(fs::symlink_status(path, error))
+                        ? fs::weakly_canonical(path, error)
+                        : fs::path(path);
+  if (error || target.empty()) target = path;
+  const fs::file_status before = fs::status(target, error);
+  if (fs::is_directory(before)) return CannotWrite(path, EISDIR);
+  const bool special = fs::exists(before) && !fs::is_regular_file(before);
+  if (IsReadOnly(before)) return CannotWrite(path, EACCES);
+  if (fs::is_fifo(before)) {
+    const absl::Status read = AwaitReader(path, stop);
+    if (!read.ok()) return read;
+  }
+  const absl::Status status =
+      special ? WriteTo(target.string(), path, write) : Replace(target, before, write);
+  if (!status.ok()) return status;
+  const std::uintmax_t size = special ? 0 : fs::file_size(target, error);
+  return error ? 0 : size;
+}
+
+}  // namespace homing::client

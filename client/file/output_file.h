@@ -1,0 +1,31 @@
+// A file that a command writes: complete, or not at all.
+#ifndef CLIENT_FILE_OUTPUT_FILE_H_
+#define CLIENT_FILE_OUTPUT_FILE_H_
+
+#include <cstdint>
+#include <functional>
+#include <ostream>
+#include <stop_token>
+#include <string>
+
+#include "absl/status/statusor.h"
+
+namespace homing::client {
+
+// "cannot write PATH: REASON", with the code of the system's error.
+absl::Status CannotWrite(const std::string& path, int error);
+
+// OK: the file can be written. For a check before the work begins; creates a missing file.
+absl::Status CheckWritable(const std::string& path);
+
+// Creates or replaces `path` with the output of `write`; returns its size in bytes. A plain file is
+// replaced when all is written; a link stays a link; devices and pipes are written into (size 0), a
+// pipe once a program reads it. Errors of `write`, and the system's, for a file without write
+// permission too; CANCELLED: stopped while no program read the pipe.
+absl::StatusOr<std::uintmax_t> WriteOutputFile(
+    const std::string& path, const std::function<absl::Status(std::ostream&)>& write,
+    const std::stop_token& stop = {});
+
+}  // namespace homing::client
+
+#endif  // CLIENT_FILE_OUTPUT_FILE_H_

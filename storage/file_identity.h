@@ -1,0 +1,48 @@
+// Whether the files that SQLite has open are still those of the path.
+#ifndef STORAGE_FILE_IDENTITY_H_
+#define STORAGE_FILE_IDENTITY_H_
+
+#include <sys/types.h>
+
+#include <atomic>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "absl/status/status.h"
+#include "homing/base/mutex.h"
+
+namespace homing::storage {
+
+// The database and its log ("-wal"). SQLite writes on into a file that was removed or replaced, and
+// says nothing. Thread-safe.
+class FileIdentity {
+ public:
+  // Takes the files of this moment for the right ones; the log, once there is one.
+  explicit FileIdentity(std::string path);
+
+  // The log holds at least so many bytes that are not yet in the database.
+  void SetLogBytes(std::int64_t bytes) { log_bytes_ = bytes; }
+  // Whether the log is shorter than that.
+  bool IsLogCut();
+  // UNAVAILABLE, a fault of the store: a file was removed, replaced or cut.
+  absl::Status Check();
+
+ private:
+  struct File {
+    dev_t device = 0;
+    ino_t inode = 0;
+    std::int64_t size = 0;
+  };
+  static std::optional<File> Look(const std::string& path);
+
+  const std::string path_;
+  Mutex mutex_;
+  std::optional<File> database_ HOMING_GUARDED_BY(mutex_);
+  std::optional<File> log_ HOMING_GUARDED_BY(mutex_);
+  std::atomic<std::int64_t> log_bytes_ = 0;
+};
+
+}  // namespace homing::storage
+
+#endif  // STORAGE_FILE_IDENTITY_H_

@@ -1,0 +1,45 @@
+#include "server/clock_watch.h"
+
+#include <gtest/gtest.h>
+
+namespace homing::server {
+namespace {
+
+using std::chrono::minutes;
+
+constexpr std::int64_t kMinute = 60'000'000'000;
+constexpr std::int64_t kNow = ClockWatch::kEarliestNs + 1000 * kMinute;
+
+class ClockWatchTest : public ::testing::Test {
+ protected:
+  std::int64_t Since(std::int64_t wall_ns, int minutes_passed) {
+    return watch_.TrustedSince(
+        wall_ns, std::chrono::steady_clock::time_point(minutes(100 + minutes_passed)));
+  }
+  ClockWatch watch_;
+};
+
+TEST_F(ClockWatchTest, ASteadyClockIsTrustedFromTheBeginning) {
+  EXPECT_EQ(Since(kNow, 0), ClockWatch::kEarliestNs);
+  EXPECT_EQ(Since(kNow + 60 * kMinute, 60), ClockWatch::kEarliestNs);
+  EXPECT_EQ(Since(kNow + 63 * kMinute, 61), ClockWatch::kEarliestNs);
+}
+
+TEST_F(ClockWatchTest, WhatWasMadeIn1970IsNotTrusted) {
+  EXPECT_GT(Since(60'000'000'000, 0), 60'000'000'000);
+}
+
+TEST_F(ClockWatchTest, AfterAJumpOnlyWhatIsNewIsTrusted) {
+  Since(kNow, 0);
+  const std::int64_t learnt = kNow + 50'000 * kMinute;
+  EXPECT_EQ(Since(learnt, 1), learnt);
+  EXPECT_EQ(Since(learnt + kMinute, 2), learnt);
+}
+
+TEST_F(ClockWatchTest, AClockThatIsSetBackIsNoReason) {
+  Since(kNow, 0);
+  EXPECT_EQ(Since(kNow - 500 * kMinute, 1), ClockWatch::kEarliestNs);
+}
+
+}  // namespace
+}  // namespace homing::server
