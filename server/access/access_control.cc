@@ -51,23 +51,23 @@ absl::StatusOr<std::unique_ptr<AccessControl>> AccessControl::Open(const AccessF
 
 absl::Status AccessControl::Reload() { return ReadFiles(IsSettled); }
 
+absl::Status AccessControl::ReadTokens() {
+  HOMING_ASSIGN_OR_RETURN(TokenBook book, TokenBook::Read(files_.tokens));
+  const bool is_empty = IsEmpty(files_.tokens);
+  const MutexLock lock(mutex_);
+  // The file may be cut or half written; with no tokens nobody could connect. A table without
+  // entries is deliberate.
+  if (is_empty && !tokens_->empty()) {
+    return absl::InvalidArgumentError(
+        absl::StrCat("tokens is \"", files_.tokens, "\"; it is empty and must hold [tokens]"));
+  }
+  tokens_ = std::make_shared<TokenBook>(std::move(book));
+  return absl::OkStatus();
+}
+
 absl::Status AccessControl::ReadFiles(bool (*is_due)(const std::string& path)) {
   absl::Status status;
-  if (!files_.tokens.empty() && is_due(files_.tokens)) {
-    absl::StatusOr<TokenBook> book = TokenBook::Read(files_.tokens);
-    status.Update(book.status());
-    // A file in the middle of being written, or cut: nobody could connect any more. A table without
-    // entries is meant so.
-    if (book.ok() && IsEmpty(files_.tokens) && tokens_ && !tokens_->empty()) {
-      book = absl::InvalidArgumentError(
-          absl::StrCat("tokens is \"", files_.tokens, "\"; it is empty and must hold [tokens]"));
-      status.Update(book.status());
-    }
-    if (book.ok()) {
-      const MutexLock lock(mutex_);
-      tokens_ = std::make_shared<TokenBook>(*std::move(book));
-    }
-  }
+  if (!files_.tokens.empty() && is_due(files_.tokens)) status.Update(ReadTokens());
   if (!files_.roles.empty() && is_due(files_.roles)) {
     absl::StatusOr<RoleBook> book = RoleBook::Read(files_.roles);
     status.Update(book.status());

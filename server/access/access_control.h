@@ -44,6 +44,7 @@ class AccessControl {
 
  private:
   explicit AccessControl(const AccessFiles& files);
+  absl::Status ReadTokens();
   absl::Status ReadFiles(bool (*is_due)(const std::string& path));
   absl::StatusOr<std::string> IdentityOfToken(const Credentials& credentials) const;
   absl::StatusOr<std::string> IdentityOfCertificate(const Credentials& credentials) const;
