@@ -70,7 +70,7 @@ stage_asan() { HOMING_PRESET=asan sh tests/run.sh; }
 stage_tidy() {
   cmake --preset tidy
   cmake --build --preset tidy --target homing_proto_sources homing_foxglove_sources
-  run-clang-tidy -quiet -p build/tidy -j "$jobs" -extra-arg=-Wno-unknown-warning-option '^(?!.*(\.pb\.cc|/homing_proto\.dir/.*)$)'
+  run-clang-tidy -quiet -p build/tidy -j "$jobs" -extra-arg=-Wno-unknown-warning-option '^(?!.*(\.pb\.cc|/homing_(proto|foxglove)\.dir/.*)$)'
 }
 
 # Lock annotations, and each source by itself: about five minutes of one processor.

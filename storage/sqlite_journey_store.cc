@@ -113,7 +113,7 @@ bool SqliteJourneyStore::IsHealed() {
 
 absl::Status SqliteJourneyStore::ProbeWrite() {
   HOMING_RETURN_IF_ERROR(CheckFiles());
-  if (const absl::Status health = WriteHealth(); absl::IsDataLoss(health)) {
+  if (absl::Status health = WriteHealth(); absl::IsDataLoss(health)) {
     if (!IsHealed()) return health;
     const MutexLock lock(health_mutex_);
     write_health_ = absl::OkStatus();

@@ -257,7 +257,7 @@ absl::Status JourneyCatalog::LoadMap(const JourneyName& pattern, LiveJourney* jo
 absl::Status JourneyCatalog::LoadMaps(const JourneyName& pattern, LiveJourneys* journeys) {
   LiveJourneys loaded;
   for (const std::shared_ptr<LiveJourney>& journey : *journeys) {
-    const absl::Status status = LoadMap(pattern, journey.get());
+    absl::Status status = LoadMap(pattern, journey.get());
     if (status.ok()) {
       loaded.push_back(journey);
     } else if (!pattern.is_pattern() || !absl::IsNotFound(status)) {
