@@ -8,6 +8,7 @@
 #include "homing/base/status_macros.h"
 #include "server/base/error_reason.h"
 #include "server/catalog/fleet_index.h"
+#include "server/catalog/journey_errors.h"
 
 namespace homing::server {
 namespace {
@@ -103,7 +104,8 @@ absl::StatusOr<JourneyRecord> JourneyCatalog::Create(const JourneyRecord& record
 }
 
 absl::StatusOr<JourneyRecord> JourneyCatalog::Get(const std::string& name) {
-  if (const auto journey = cache_.Find(name)) {
+  // Memory may lag behind what another server has written.
+  if (const auto journey = shared() ? nullptr : cache_.Find(name)) {
     return journey->record();
   }
   return store_->GetJourney(name);
@@ -137,9 +139,7 @@ absl::Status JourneyCatalog::Delete(const std::string& name) {
   const MutexLock lock(StripeOf(name));
   const auto journey = cache_.Find(name);
   if (journey) {
-    journey->EvictWriter(
-        WithReason(absl::AbortedError(absl::StrCat("journey: \"", name, "\" was deleted")),
-                   {"JOURNEY_DELETED", {}}));
+    journey->EvictWriter(JourneyDeleted(name));
   }
   HOMING_RETURN_IF_ERROR(store_->DeleteJourney(name));
   if (index_ != nullptr) {
@@ -156,16 +156,16 @@ absl::StatusOr<JourneyRecord> JourneyCatalog::Finish(const std::string& name,
                                                      const std::string& writer_id, bool force,
                                                      TimePoint now) {
   const MutexLock lock(StripeOf(name));
+  if (!force) {
+    HOMING_RETURN_IF_ERROR(store_->CheckLease(name, writer_id));
+  }
   const auto journey = cache_.Find(name);
   if (journey) {
     if (!force) {
       HOMING_RETURN_IF_ERROR(writer_id.empty() ? journey->CheckNoStream(now)
                                                : journey->CheckWriter(writer_id, now));
     }
-    journey->EvictWriter(
-        WithReason(absl::FailedPreconditionError(absl::StrCat(
-                       "journey: \"", name, "\" is finished and takes no observations")),
-                   {"JOURNEY_FINISHED", {}}));
+    journey->EvictWriter(JourneyFinished(name));
   }
   HOMING_RETURN_IF_ERROR(store_->FinishJourney(name));
   if (journey) {
@@ -285,13 +285,17 @@ absl::StatusOr<WriterClaim> JourneyCatalog::Claim(const std::string& name,
   }
   cache_.SetTime(now);
   HOMING_RETURN_IF_ERROR(journey->CheckClaim(writer_id, now));
-  // Disk first: memory holds committed state only.
-  if (journey->record().writer_id != writer_id) {
-    HOMING_RETURN_IF_ERROR(store_->SetWriter(name, writer_id));
+  HOMING_ASSIGN_OR_RETURN(const LiveClaim claim, journey->Claim(writer_id, now, std::move(evict)));
+  return WriterClaim{std::move(journey), claim.number, claim.epoch};
+}
+
+void JourneyCatalog::Drop(const std::shared_ptr<LiveJourney>& journey) {
+  const MutexLock lock(StripeOf(journey->name()));
+  journey->EvictWriter(JourneyDeleted(journey->name()));
+  journey->MarkDeleted();
+  if (cache_.Find(journey->name()) == journey) {
+    cache_.Erase(journey->name());
   }
-  HOMING_ASSIGN_OR_RETURN(const std::uint64_t claim,
-                          journey->Claim(writer_id, now, std::move(evict)));
-  return WriterClaim{std::move(journey), claim};
 }
 
 }  // namespace homing::server

@@ -53,7 +53,9 @@ TEST_P(JourneyStoreTest, NamesTheJourneyThatDoesNotExist) {
   EXPECT_THAT(store_->LoadMap(kJourney), not_found);
   EXPECT_THAT(store_->DeleteJourney(kJourney), not_found);
   EXPECT_THAT(store_->FinishJourney(kJourney), not_found);
-  EXPECT_THAT(store_->SetWriter(kJourney, "w"), not_found);
+  EXPECT_THAT(store_->AcquireJourney(kJourney, "w"), not_found);
+  EXPECT_THAT(store_->LoadSteps(kJourney, 0), not_found);
+  EXPECT_THAT(store_->LoadMarks({kJourney}).value(), IsEmpty());
   EXPECT_THAT(store_->SetReaders(kJourney, {}), not_found);
 }
 
@@ -82,7 +84,7 @@ TEST_P(JourneyStoreTest, ListsOnlyTheNamesThatBeginWithThePrefix) {
 
 TEST_P(JourneyStoreTest, FinishesAndChangesTheWriter) {
   ASSERT_THAT(store_->CreateJourney(Record(kJourney)), IsOk());
-  ASSERT_THAT(store_->SetWriter(kJourney, "second"), IsOk());
+  ASSERT_THAT(store_->AcquireJourney(kJourney, "second"), IsOk());
   ASSERT_THAT(store_->FinishJourney(kJourney), IsOk());
   EXPECT_THAT(store_->FinishJourney(kJourney), IsOk());
   EXPECT_EQ(store_->GetJourney(kJourney)->writer_id, "second");
