@@ -9,6 +9,9 @@
 
 namespace homing::storage {
 
+// The schema that this program writes.
+inline constexpr int kPostgresSchemaVersion = 1;
+
 // As OpenJourneyStore. REQUIRES: IsPostgresUrl(options.url).
 absl::StatusOr<std::unique_ptr<JourneyStore>> OpenPostgresStore(const StoreOptions& options);
 

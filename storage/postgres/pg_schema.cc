@@ -118,7 +118,7 @@ struct Migration {
   const char* tables;
   const char* views;
 };
-constexpr std::array<Migration, kPgSchemaVersion> kMigrations = {{{kVersion1, kViews1}}};
+constexpr std::array<Migration, kPostgresSchemaVersion> kMigrations = {{{kVersion1, kViews1}}};
 
 // Any number that no other program uses for an advisory lock.
 constexpr char kLock[] = "SELECT pg_advisory_xact_lock(1213156681)";
@@ -133,10 +133,10 @@ absl::StatusOr<std::int64_t> ReadVersion(PgConnection& connection, Deadline dead
 }
 
 absl::Status CheckNotNewer(std::int64_t version) {
-  if (version >= 0 && version <= kPgSchemaVersion) return absl::OkStatus();
+  if (version >= 0 && version <= kPostgresSchemaVersion) return absl::OkStatus();
   return absl::FailedPreconditionError(
       absl::StrCat("store: schema version is ", version, ", newer than this program's ",
-                   kPgSchemaVersion, ": use a newer homing-server"));
+                   kPostgresSchemaVersion, ": use a newer homing-server"));
 }
 
 absl::Status MigrateInTransaction(PgConnection& connection, Deadline deadline) {
@@ -147,9 +147,9 @@ absl::Status MigrateInTransaction(PgConnection& connection, Deadline deadline) {
     HOMING_RETURN_IF_ERROR(connection.Execute(kMigrations[from].tables, deadline));
     HOMING_RETURN_IF_ERROR(connection.Execute(kMigrations[from].views, deadline));
   }
-  if (version == kPgSchemaVersion) return absl::OkStatus();
-  return connection.Execute(absl::StrCat("UPDATE homing_schema SET version = ", kPgSchemaVersion),
-                            deadline);
+  if (version == kPostgresSchemaVersion) return absl::OkStatus();
+  return connection.Execute(
+      absl::StrCat("UPDATE homing_schema SET version = ", kPostgresSchemaVersion), deadline);
 }
 
 }  // namespace
@@ -157,9 +157,9 @@ absl::Status MigrateInTransaction(PgConnection& connection, Deadline deadline) {
 absl::Status CheckSchema(PgConnection& connection, Deadline deadline) {
   HOMING_ASSIGN_OR_RETURN(const std::int64_t version, ReadVersion(connection, deadline));
   HOMING_RETURN_IF_ERROR(CheckNotNewer(version));
-  if (version == kPgSchemaVersion) return absl::OkStatus();
+  if (version == kPostgresSchemaVersion) return absl::OkStatus();
   return absl::FailedPreconditionError(absl::StrCat(
-      "store: schema version is ", version, ", older than this program's ", kPgSchemaVersion,
+      "store: schema version is ", version, ", older than this program's ", kPostgresSchemaVersion,
       ": start homing-server on it once, not read-only, to migrate it"));
 }
 

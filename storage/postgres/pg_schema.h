@@ -4,10 +4,9 @@
 
 #include "absl/status/status.h"
 #include "storage/postgres/pg_connection.h"
+#include "storage/postgres_store.h"
 
 namespace homing::storage::postgres {
-
-inline constexpr int kPgSchemaVersion = 1;
 
 // Makes the tables of an empty database, or migrates those of an older version, in one transaction;
 // servers that start together wait for each other. FAILED_PRECONDITION: a newer version.

@@ -91,6 +91,7 @@ absl::Status PostgresJourneyStore::CreateJourney(const JourneyRecord& record) {
   empty.landmark_count = 0;
   empty.fingerprint_count = 0;
   bool is_repeated = false;
+  writer_.Forget(record.name);
   return Write([&](PgConnection& connection, Deadline deadline) {
     const absl::Status status = InsertJourney(connection, empty, deadline);
     if (!std::exchange(is_repeated, true) || !absl::IsAlreadyExists(status)) return status;

@@ -135,11 +135,10 @@ TEST_P(JourneyStoreTest, GivesBackDeviationModelsInOrderOfName) {
   EXPECT_EQ(store_->ListModels(other.name, 10)->at(0).name, model.name);
 }
 
-INSTANTIATE_TEST_SUITE_P(Stores, JourneyStoreTest, ::testing::Bool(),
-                         [](const auto& test) { return test.param ? "File" : "Memory"; });
+INSTANTIATE_TEST_SUITE_P(Stores, JourneyStoreTest, EveryKind(), KindName);
 
 TEST(OpenJourneyStore, RefusesAnAddressItDoesNotKnow) {
-  for (const char* url : {"", "sqlite:", "homing.db", "postgres://x"}) {
+  for (const char* url : {"", "sqlite:", "homing.db", "mysql://x"}) {
     StoreOptions options;
     options.url = url;
     EXPECT_THAT(OpenJourneyStore(options),
