@@ -9,6 +9,7 @@
 #include "server/base/error_reason.h"
 #include "server/catalog/fleet_index.h"
 #include "server/catalog/journey_errors.h"
+#include "server/catalog/same_journey.h"
 
 namespace homing::server {
 namespace {
@@ -21,28 +22,9 @@ std::string PrefixOf(const std::string& robot) {
   return robot == kWildcard ? "robots/" : absl::StrCat("robots/", robot, "/journeys/");
 }
 
-// The first observation sets image sizes that the request left open. Such a difference is not a
-// difference of settings.
-JourneySettings WithSizesOf(JourneySettings settings, const JourneySettings& known) {
-  for (std::size_t side = 0; side < settings.cameras.size(); ++side) {
-    if (settings.cameras[side].width == 0 && settings.cameras[side].height == 0) {
-      settings.cameras[side].width = known.cameras[side].width;
-      settings.cameras[side].height = known.cameras[side].height;
-    }
-  }
-  return settings;
-}
-
 absl::Status NoneCovered(const JourneyName& pattern) {
   return absl::NotFoundError(
       absl::StrCat("journey: \"", pattern.ToString(), "\" covers no journey"));
-}
-
-bool IsSameJourney(const JourneyRecord& wanted, const JourneyRecord& present) {
-  return present.state == storage::JourneyState::kActive && !wanted.writer_id.empty() &&
-         wanted.writer_id == present.writer_id &&
-         std::ranges::is_permutation(wanted.readers, present.readers) &&
-         WithSizesOf(wanted.settings, present.settings) == present.settings;
 }
 
 }  // namespace

@@ -261,65 +261,6 @@ TEST_P(AppendTest, ReadersBesideTheWriterSeeWholeSteps) {
   EXPECT_TRUE(SameMap(*store_->LoadMap(kJourney), MapOf(OddSettings(), steps)));
 }
 
-TEST_P(AppendTest, AWriterThatWasReplacedWritesNothing) {
-  const std::vector<JourneyStep> steps = MakeSteps(4);
-  JourneyAppend append = AppendOf(kJourney, steps[0]);
-  const auto first = store_->AcquireJourney(kJourney, "one");
-  ASSERT_THAT(first, IsOk());
-  EXPECT_EQ(first->record.next_sequence, 0);
-  EXPECT_THAT(Append(append), StatusIs(absl::StatusCode::kAborted, HasSubstr("taken over")));
-  append.epoch = first->epoch;
-  ASSERT_THAT(Append(append), IsOk());
-  const auto second = store_->AcquireJourney(kJourney, "one");
-  ASSERT_THAT(second, IsOk());
-  EXPECT_GT(second->epoch, first->epoch);
-  EXPECT_EQ(second->record.next_sequence, 1);
-  append = AppendOf(kJourney, steps[1]);
-  append.epoch = first->epoch;
-  EXPECT_THAT(Append(append), StatusIs(absl::StatusCode::kAborted, HasSubstr(kJourney)));
-  EXPECT_EQ(store_->GetJourney(kJourney)->next_sequence, 1);
-  append.epoch = second->epoch;
-  EXPECT_THAT(Append(append), IsOk());
-}
-
-TEST_P(AppendTest, AnEpochIsNotUsedAgainForAJourneyOfTheSameName) {
-  const std::int64_t epoch = store_->AcquireJourney(kJourney, "one").value().epoch;
-  ASSERT_THAT(store_->DeleteJourney(kJourney), IsOk());
-  ASSERT_THAT(store_->CreateJourney(Record(kJourney)), IsOk());
-  EXPECT_GT(store_->AcquireJourney(kJourney, "one").value().epoch, epoch);
-}
-
-TEST_P(AppendTest, AFinishedJourneyIsNotAcquired) {
-  ASSERT_THAT(store_->FinishJourney(kJourney), IsOk());
-  EXPECT_THAT(store_->AcquireJourney(kJourney, "one"),
-              StatusIs(absl::StatusCode::kFailedPrecondition, HasSubstr("finished")));
-}
-
-TEST_P(AppendTest, LoadsTheStepsFromOneOnAndMarksOfWhatIsThere) {
-  const std::vector<JourneyStep> steps = WithProfiles(MakeSteps(12));
-  const std::int64_t epoch = store_->AcquireJourney(kJourney, "one").value().epoch;
-  for (const JourneyStep& step : steps) {
-    JourneyAppend append = AppendOf(kJourney, step);
-    append.epoch = epoch;
-    ASSERT_THAT(Append(append), IsOk());
-  }
-  const auto growth = store_->LoadSteps(kJourney, 9);
-  ASSERT_THAT(growth, IsOk());
-  EXPECT_EQ(growth->record.next_sequence, 12);
-  ASSERT_EQ(growth->steps.size(), 3U);
-  EXPECT_EQ(growth->steps[0].step, 9);
-  EXPECT_EQ(growth->steps[2].fingerprints, steps[11].fingerprints);
-  EXPECT_EQ(growth->steps[2].profiles, steps[11].profiles);
-  EXPECT_TRUE(store_->LoadSteps(kJourney, kMostSteps)->steps.empty());
-  const auto marks = store_->LoadMarks({kJourney, kOther});
-  ASSERT_THAT(marks, IsOk());
-  ASSERT_EQ(marks->size(), 1U);
-  EXPECT_EQ(marks->at(0).name, kJourney);
-  EXPECT_EQ(marks->at(0).next_sequence, 12);
-  EXPECT_EQ(marks->at(0).epoch, epoch);
-  EXPECT_EQ(marks->at(0).state, JourneyState::kActive);
-}
-
 INSTANTIATE_TEST_SUITE_P(Stores, AppendTest, EveryKind(), KindName);
 
 }  // namespace
