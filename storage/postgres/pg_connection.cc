@@ -71,6 +71,8 @@ absl::StatusOr<std::unique_ptr<PgConnection>> PgConnection::Open(const std::stri
 PgConnection::~PgConnection() { PQfinish(connection_); }
 
 absl::Status PgConnection::Connect(Deadline deadline) {
+  // libpq would print them.
+  PQsetNoticeReceiver(connection_, &NoteWarning, this);
   PostgresPollingStatusType wanted = PGRES_POLLING_WRITING;
   while (wanted != PGRES_POLLING_OK) {
     if (wanted == PGRES_POLLING_FAILED || PQstatus(connection_) == CONNECTION_BAD) {
@@ -83,7 +85,8 @@ absl::Status PgConnection::Connect(Deadline deadline) {
     wanted = PQconnectPoll(connection_);
   }
   PQsetnonblocking(connection_, 1);
-  PQsetNoticeReceiver(connection_, &NoteWarning, this);
+  // Warnings of a role's or database's settings concern no commit.
+  warned_ = false;
   return absl::OkStatus();
 }
 
