@@ -85,6 +85,15 @@ stage_faults() {
   fi
 }
 
+# Three servers on one PostgreSQL: few rounds of kills, pauses and promotions. Uses the build of the tests.
+stage_scale() {
+  if [ -d "$scratch/root/homing" ]; then
+    in_bare_root sh /homing/tests/scale/run.sh --quick
+  else
+    sh tests/scale/run.sh --quick
+  fi
+}
+
 stage_fuzz_build() { cmake --preset fuzz && cmake --build --preset fuzz -j "$jobs"; }
 
 stage_fuzz() { sh tests/fuzz/run.sh 30; }

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <vector>
 
 #include "absl/strings/ascii.h"
 #include "absl/strings/match.h"
@@ -12,6 +13,7 @@
 #include "client/backoff.h"
 #include "client/rpc_status.h"
 #include "client/server_address.h"
+#include "client/server_list.h"
 #include "client/token_interceptor.h"
 #include "homing/base/field_error.h"
 #include "homing/base/file_text.h"
@@ -37,8 +39,11 @@ absl::StatusOr<std::string> ReadPem(const std::string& flag, const std::string& 
 }
 
 bool IsThisMachine(const std::string& address) {
-  return absl::StartsWith(address, "127.0.0.1:") || absl::StartsWith(address, "localhost:") ||
-         absl::StartsWith(address, "[::1]:") || absl::StartsWith(address, "unix:");
+  const std::vector<std::string> servers = ServersOf(address);
+  return std::all_of(servers.begin(), servers.end(), [](const std::string& server) {
+    return absl::StartsWith(server, "127.0.0.1:") || absl::StartsWith(server, "localhost:") ||
+           absl::StartsWith(server, "[::1]:") || absl::StartsWith(server, "unix:");
+  });
 }
 
 absl::StatusOr<std::shared_ptr<grpc::ChannelCredentials>> MakeCredentials(
@@ -62,9 +67,17 @@ void UseResolverOfSystem() { ::setenv("GRPC_DNS_RESOLVER", "native", /*overwrite
 
 grpc::ChannelArguments MakeArguments(const std::string& address) {
   grpc::ChannelArguments arguments;
-  // Detects a dead link within half a minute, even without traffic.
-  arguments.SetInt(GRPC_ARG_KEEPALIVE_TIME_MS, 20000);
-  arguments.SetInt(GRPC_ARG_KEEPALIVE_TIMEOUT_MS, 10000);
+  // Detects a dead link within half a minute, even without traffic; with another server to go to,
+  // within four seconds.
+  const bool many = MayBeMany(address);
+  arguments.SetInt(GRPC_ARG_KEEPALIVE_TIME_MS, many ? 2000 : 20000);
+  arguments.SetInt(GRPC_ARG_KEEPALIVE_TIMEOUT_MS, many ? 2000 : 10000);
+  if (many) {
+    arguments.SetInt(GRPC_ARG_HTTP2_MAX_PINGS_WITHOUT_DATA, 0);
+    arguments.SetLoadBalancingPolicyName("round_robin");
+    // The name that a certificate must have, where the target holds numbers.
+    arguments.SetString(GRPC_ARG_DEFAULT_AUTHORITY, ServersOf(address)[0]);
+  }
   arguments.SetInt(GRPC_ARG_INITIAL_RECONNECT_BACKOFF_MS, kReconnectBackoffMs);
   // Time of one attempt to connect, with TLS: a slow radio link takes seconds.
   arguments.SetInt(GRPC_ARG_MIN_RECONNECT_BACKOFF_MS, 5000);
@@ -109,13 +122,12 @@ absl::StatusOr<Connection> Connection::Open(const ConnectionOptions& options) {
   UseResolverOfSystem();
   HOMING_ASSIGN_OR_RETURN(const auto credentials, MakeCredentials(options));
   HOMING_ASSIGN_OR_RETURN(const std::string token, ReadToken(options));
-  if (token.empty()) {
-    return Connection(options, grpc::CreateCustomChannel(options.address, credentials,
-                                                         MakeArguments(options.address)));
-  }
-  return Connection(
-      options, grpc::experimental::CreateCustomChannelWithInterceptors(
-                   options.address, credentials, MakeArguments(options.address), SendToken(token)));
+  HOMING_ASSIGN_OR_RETURN(const std::string target, ChannelTarget(options.address));
+  const grpc::ChannelArguments arguments = MakeArguments(options.address);
+  return Connection(options, token.empty()
+                                 ? grpc::CreateCustomChannel(target, credentials, arguments)
+                                 : grpc::experimental::CreateCustomChannelWithInterceptors(
+                                       target, credentials, arguments, SendToken(token)));
 }
 
 absl::Status Connection::WaitForServer() const {

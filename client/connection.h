@@ -16,7 +16,9 @@
 namespace homing::client {
 
 struct ConnectionOptions {
-  // host:port or unix:path. Names are resolved as by every other program of the machine; a proxy of
+  // host:port or unix:path; several servers of one database as host:port,host:port or, for a name
+  // with several addresses, dns:///host:port: calls go to all that answer in turn, and to another
+  // one after a failure. Names are resolved as by every other program of the machine; a proxy of
   // the environment is used for public addresses only.
   std::string address = "127.0.0.1:50551";
   // PEM files. Any of them turns TLS on. Without `tls_ca` the system's roots are trusted.

@@ -17,6 +17,7 @@
 
 #include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
+#include "client/server_list.h"
 #include "homing/base/host_port.h"
 #include "homing/base/status_macros.h"
 
@@ -144,7 +145,10 @@ absl::Status ExplainTls(const std::string& address, bool uses_tls, bool plain) {
 
 absl::Status CheckServerAddress(const std::string& address) {
   if (IsSocketFile(address)) return absl::OkStatus();
-  return ParseHostPort("--server", address, 1).status();
+  for (const std::string& server : ServersOf(address)) {
+    HOMING_RETURN_IF_ERROR(ParseHostPort("--server", server, 1).status());
+  }
+  return absl::OkStatus();
 }
 
 std::string ProxyOfEnvironment() {
@@ -157,7 +161,7 @@ std::string ProxyOfEnvironment() {
 
 bool MayUseProxy(const std::string& address) {
   if (IsSocketFile(address) || ProxyOfEnvironment().empty()) return false;
-  const auto target = ParseHostPort("--server", address, 1);
+  const auto target = ParseHostPort("--server", ServersOf(address)[0], 1);
   if (!target.ok()) return true;
   const std::string& host = target->host;
   if (!absl::StrContains(host, ".") && !absl::StrContains(host, ":")) return false;
@@ -177,7 +181,8 @@ absl::Status ExplainUnreachable(const std::string& address, bool uses_tls) {
                        absl::StrCat("the way there is through the proxy of ", ProxyOfEnvironment(),
                                     "; name the host in no_proxy to go around it"));
   }
-  const auto target = ParseHostPort("--server", address, 1);
+  // Of several servers the first one stands for all.
+  const auto target = ParseHostPort("--server", ServersOf(address)[0], 1);
   if (!target.ok()) return Unavailable(address, "nothing listens there");
   int error = 0;
   const Addresses found = Resolve(*target, &error);

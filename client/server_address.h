@@ -8,7 +8,7 @@
 
 namespace homing::client {
 
-// HOST:PORT, or unix:PATH. INVALID_ARGUMENT.
+// HOST:PORT, a list of them with commas, dns:///HOST:PORT, or unix:PATH. INVALID_ARGUMENT.
 absl::Status CheckServerAddress(const std::string& address);
 
 // The proxy that gRPC takes from the environment (grpc_proxy, https_proxy, http_proxy), as

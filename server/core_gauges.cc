@@ -64,8 +64,10 @@ void AddCoreGauges(const ServerOptions& options, ServiceCore* core) {
                     [core] { return static_cast<double>(core->import_bytes.load()); });
   metrics->AddGauge("homing_journeys_deleted", "Journeys deleted by age or quota since the start",
                     [core] { return static_cast<double>(core->quota.deleted()); });
-  metrics->AddGauge("homing_db_size_bytes", "The database with its journal",
-                    [path] { return SizeOf(path) + SizeOf(path + "-wal"); });
+  if (!path.empty()) {
+    metrics->AddGauge("homing_db_size_bytes", "The database with its journal",
+                      [path] { return SizeOf(path) + SizeOf(path + "-wal"); });
+  }
   metrics->AddGauge("process_resident_memory_bytes", "Resident memory", ResidentBytes);
   metrics->AddGauge("process_open_fds", "Open file descriptors", OpenFiles);
   if (!options.tls_cert.empty()) {

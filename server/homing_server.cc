@@ -29,7 +29,9 @@ namespace homing::server {
 namespace {
 
 // The shortest interval at which clients may ping.
-constexpr int kMinPingIntervalMs = 5'000;
+constexpr int kMinPingIntervalMs = 1'000;
+// Time for the streams of a connection that has become too old.
+constexpr int kAgeGraceMs = 10'000;
 // Above --max-streams as a rule, since a stream over that is refused with a reason, while one over
 // this waits.
 constexpr int kMaxConnectionStreams = 16'384;
@@ -71,6 +73,11 @@ void Configure(const ServerOptions& options, grpc::ServerBuilder* builder) {
   builder->AddChannelArgument(GRPC_ARG_HTTP2_MIN_RECV_PING_INTERVAL_WITHOUT_DATA_MS,
                               kMinPingIntervalMs);
   builder->AddChannelArgument(GRPC_ARG_KEEPALIVE_PERMIT_WITHOUT_CALLS, 1);
+  if (options.max_connection_age_s > 0) {
+    builder->AddChannelArgument(GRPC_ARG_MAX_CONNECTION_AGE_MS,
+                                options.max_connection_age_s * 1000);
+    builder->AddChannelArgument(GRPC_ARG_MAX_CONNECTION_AGE_GRACE_MS, kAgeGraceMs);
+  }
   // What one connection may open and send is announced to it.
   builder->AddChannelArgument(GRPC_ARG_MAX_CONCURRENT_STREAMS, kMaxConnectionStreams);
   builder->AddChannelArgument(GRPC_ARG_MAX_METADATA_SIZE, kMaxHeaderBytes);

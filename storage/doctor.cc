@@ -10,10 +10,12 @@
 #include "absl/strings/str_cat.h"
 #include "homing/base/status_macros.h"
 #include "storage/connection.h"
+#include "storage/database_url.h"
 #include "storage/journey_rows.h"
 #include "storage/journey_store.h"
 #include "storage/map_rows.h"
 #include "storage/model_rows.h"
+#include "storage/postgres_store.h"
 #include "storage/schema.h"
 
 namespace homing::storage {
@@ -143,6 +145,33 @@ absl::Status SaveJourney(Connection& connection, const JourneyRecord& record,
   });
 }
 
+// Of a store that may be in use by many servers.
+absl::StatusOr<Diagnosis> ExamineShared(const std::string& url) {
+  StoreOptions options;
+  options.url = url;
+  options.read_only = true;
+  HOMING_ASSIGN_OR_RETURN(const auto store, OpenJourneyStore(options));
+  Diagnosis diagnosis;
+  diagnosis.schema_version = kPostgresSchemaVersion;
+  constexpr int kPage = 100;
+  for (std::string after, last = "-"; last != after;) {
+    last = after;
+    HOMING_ASSIGN_OR_RETURN(const auto page, store->ListJourneys("", after, kPage));
+    for (const JourneyRecord& record : page) {
+      const auto map = store->LoadMap(record.name);
+      // Deleted meanwhile.
+      if (absl::IsNotFound(map.status())) continue;
+      diagnosis.journeys.push_back({record.name, map.ok() ? map->step_count() : 0, map.status()});
+    }
+    if (!page.empty()) after = page.back().name;
+  }
+  HOMING_ASSIGN_OR_RETURN(const auto models, store->ListModels("", 1'000'000));
+  for (const StoredModel& model : models) {
+    diagnosis.models.push_back({model.name, 0, absl::OkStatus()});
+  }
+  return diagnosis;
+}
+
 }  // namespace
 
 int CountDamaged(const std::vector<Finding>& findings) {
@@ -155,9 +184,14 @@ bool IsWhole(const Diagnosis& diagnosis) {
          CountDamaged(diagnosis.models) == 0;
 }
 
-absl::StatusOr<Diagnosis> Examine(const std::string& path) { return ExamineWith(path, {}); }
+absl::StatusOr<Diagnosis> Examine(const std::string& path) {
+  return IsPostgresUrl(path) ? ExamineShared(path) : ExamineWith(path, {});
+}
 
 absl::StatusOr<Diagnosis> Salvage(const std::string& path, const std::string& to) {
+  if (IsPostgresUrl(path)) {
+    return absl::InvalidArgumentError("--salvage is for SQLite files; restore PostgreSQL's backup");
+  }
   // First, so that no file is created when nothing can be read.
   HOMING_RETURN_IF_ERROR(OpenForReading(path, kBusyTimeoutMs).status());
   HOMING_ASSIGN_OR_RETURN(const auto saved, MakeStore(to));

@@ -32,13 +32,14 @@ struct Diagnosis {
 int CountDamaged(const std::vector<Finding>& findings);
 bool IsWhole(const Diagnosis& diagnosis);
 
-// Reads every page and loads every journey; does not change the file. A server may be using it.
+// Reads every page and loads every journey; does not change the file. `path` may be the URL of a
+// PostgreSQL database, whose pages pg_amcheck examines. A server may be using it.
 // DATA_LOSS: nothing can be read; FAILED_PRECONDITION: no such file, another program's file, or
 // another version.
 absl::StatusOr<Diagnosis> Examine(const std::string& path);
 
-// As Examine; also writes the complete items, including journeys that are still being recorded,
-// into the new file `to`. ALREADY_EXISTS.
+// As Examine, of a file; also writes the complete items, including journeys that are still being
+// recorded, into the new file `to`. ALREADY_EXISTS.
 absl::StatusOr<Diagnosis> Salvage(const std::string& path, const std::string& to);
 
 }  // namespace homing::storage

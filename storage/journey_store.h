@@ -56,6 +56,35 @@ struct JourneyAppend {
   std::optional<JourneySettings> settings;
   // Becomes the journey's resend_from.
   std::int64_t resend_from = 0;
+  // AcquiredJourney::epoch of its writer; 0: nobody has acquired the journey.
+  std::int64_t epoch = 0;
+};
+
+// A journey that one writer may append to, until another one acquires it.
+struct AcquiredJourney {
+  // Fences earlier writers: grows with each acquisition. Above 0.
+  std::int64_t epoch = 0;
+  // As of the acquisition: no append of an earlier epoch is stored after it.
+  JourneyRecord record;
+};
+
+// Shows whether a journey in memory is still as stored.
+struct JourneyMark {
+  std::string name;
+  // Tells a journey from a later one of the same name.
+  std::int64_t create_time_ns = 0;
+  JourneyState state = JourneyState::kActive;
+  std::int64_t next_sequence = 0;
+  std::int64_t epoch = 0;
+  // Changes with each change of the readers.
+  std::int64_t revision = 0;
+};
+
+// The part of a journey from one step on.
+struct JourneyGrowth {
+  JourneyRecord record;
+  // In order; steps without a row are left out.
+  std::vector<JourneyStep> steps;
 };
 
 struct StoredModel {
@@ -86,17 +115,31 @@ class JourneyStore {
   virtual absl::Status DeleteJourney(const std::string& name) = 0;
   // NOT_FOUND. OK if already finished.
   virtual absl::Status FinishJourney(const std::string& name) = 0;
-  // Stores a new writer. NOT_FOUND.
-  virtual absl::Status SetWriter(const std::string& name, const std::string& writer_id) = 0;
+  // Gives the journey to `writer_id`: appends of earlier epochs are ABORTED from now on. NOT_FOUND;
+  // FAILED_PRECONDITION: finished; ABORTED: as CheckLease.
+  virtual absl::StatusOr<AcquiredJourney> AcquireJourney(const std::string& name,
+                                                         const std::string& writer_id) = 0;
+  // ABORTED: another server that is alive has written the journey in the last 15 s for a writer of
+  // another program (the part of a writer_id before "#" names it).
+  virtual absl::Status CheckLease(const std::string& /*name*/, const std::string& /*writer_id*/) {
+    return absl::OkStatus();
+  }
   // NOT_FOUND.
   virtual absl::Status SetReaders(const std::string& name,
                                   const std::vector<std::string>& readers) = 0;
   // Appends to any number of journeys in one transaction. Returns a status each: NOT_FOUND
-  // (deleted), FAILED_PRECONDITION (finished), OUT_OF_RANGE (the sequence is not the next) concern
-  // one append. If the transaction fails, every append has its error and nothing is stored.
+  // (deleted), FAILED_PRECONDITION (finished), ABORTED (another epoch), OUT_OF_RANGE (the sequence
+  // is not the next) concern one append. If the transaction fails, every append has its error. A
+  // store behind a network may have stored appends that have the error UNAVAILABLE: AcquireJourney
+  // decides.
   virtual std::vector<absl::Status> AppendSteps(const std::vector<JourneyAppend>& appends) = 0;
   // The map as stored. NOT_FOUND, DATA_LOSS.
   virtual absl::StatusOr<JourneyMap> LoadMap(const std::string& name) = 0;
+  // The record and the steps from `first` on, of one moment. NOT_FOUND, DATA_LOSS.
+  virtual absl::StatusOr<JourneyGrowth> LoadSteps(const std::string& name, std::int64_t first) = 0;
+  // Of those journeys that exist.
+  virtual absl::StatusOr<std::vector<JourneyMark>> LoadMarks(
+      const std::vector<std::string>& names) = 0;
   // State needed to resume recording; O(1) in journey length. NOT_FOUND, DATA_LOSS.
   virtual absl::StatusOr<JourneyTail> LoadTail(const std::string& name) = 0;
   // Stores a whole journey, finished. ALREADY_EXISTS, INVALID_ARGUMENT.
@@ -108,6 +151,8 @@ class JourneyStore {
   // Tests with a small write that changes nothing. Returns WriteHealth.
   virtual absl::Status ProbeWrite() { return absl::OkStatus(); }
   virtual bool read_only() const { return false; }
+  // Other servers write to it too.
+  virtual bool shared() const { return false; }
 
   // A checked copy of the whole store as of one moment. It takes disk space until the stream is
   // destroyed. FAILED_PRECONDITION (in memory; or read-only, where the file itself may be copied),
@@ -125,18 +170,20 @@ class JourneyStore {
 };
 
 struct StoreOptions {
-  // "sqlite:PATH"; the file is created if missing. "sqlite::memory:" for tests.
+  // "sqlite:PATH"; the file is created if missing. "sqlite::memory:" for tests. Or
+  // "postgresql://...", as libpq reads it; the tables are created if missing.
   std::string url = "sqlite:homing.db";
   // How long to wait for a lock, ms.
   int busy_timeout_ms = 5000;
-  // Largest size of the file, bytes; a write beyond it is RESOURCE_EXHAUSTED. 0: no limit.
+  // Largest size of the file, bytes; a write beyond it is RESOURCE_EXHAUSTED. 0: no limit. SQLite.
   std::int64_t max_bytes = 0;
   // Changes no byte of the file, and needs no write access to its folder. The file must have been
   // closed cleanly and have this program's schema.
   bool read_only = false;
 };
 
-// INVALID_ARGUMENT (URL), FAILED_PRECONDITION (schema newer than this program; read-only: also an
+// INVALID_ARGUMENT (URL), FAILED_PRECONDITION (PostgreSQL: commits are not synchronous),
+// FAILED_PRECONDITION (schema newer than this program; read-only: also an
 // older one, or a log that is not yet in the file), DATA_LOSS, UNAVAILABLE (in use).
 absl::StatusOr<std::unique_ptr<JourneyStore>> OpenJourneyStore(const StoreOptions& options);
 

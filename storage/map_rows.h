@@ -12,6 +12,9 @@ namespace homing::storage {
 
 // DATA_LOSS: the rows contradict each other.
 absl::StatusOr<JourneyMap> ReadMap(Connection& connection, const JourneyRow& journey);
+// The steps from `first` on that have a row. DATA_LOSS.
+absl::StatusOr<std::vector<JourneyStep>> ReadSteps(Connection& connection,
+                                                   const JourneyRow& journey, std::int64_t first);
 // As JourneyStore::LoadTail. DATA_LOSS.
 absl::StatusOr<JourneyTail> ReadTail(Connection& connection, const JourneyRow& journey);
 // Writes all rows of a journey that has none.

@@ -6,6 +6,7 @@
 #include "storage/connection.h"
 #include "storage/database_url.h"
 #include "storage/journey_store.h"
+#include "storage/postgres_store.h"
 #include "storage/query_connections.h"
 #include "storage/schema.h"
 #include "storage/sqlite_journey_store.h"
@@ -69,6 +70,7 @@ absl::StatusOr<std::unique_ptr<JourneyStore>> OpenReadOnly(const std::string& pa
 }  // namespace
 
 absl::StatusOr<std::unique_ptr<JourneyStore>> OpenJourneyStore(const StoreOptions& options) {
+  if (IsPostgresUrl(options.url)) return OpenPostgresStore(options);
   HOMING_ASSIGN_OR_RETURN(const std::string path, ParseDatabaseUrl(options.url));
   if (options.read_only && path != kInMemory) return OpenReadOnly(path, options);
   HOMING_ASSIGN_OR_RETURN(

@@ -7,6 +7,7 @@
 #include "homing/base/status_macros.h"
 #include "storage/backup.h"
 #include "storage/journey_rows.h"
+#include "storage/map_assembly.h"
 #include "storage/map_rows.h"
 #include "storage/model_rows.h"
 #include "storage/schema.h"
@@ -170,7 +171,10 @@ absl::StatusOr<std::vector<JourneyRecord>> SqliteJourneyStore::ListJourneys(
 }
 
 absl::Status SqliteJourneyStore::DeleteJourney(const std::string& name) {
-  return Write([&](Connection& connection) { return DeleteJourneyRow(connection, name); });
+  return Write([&](Connection& connection) {
+    appends_.ForgetEpoch(name);
+    return DeleteJourneyRow(connection, name);
+  });
 }
 
 absl::Status SqliteJourneyStore::FinishJourney(const std::string& name) {
@@ -179,9 +183,23 @@ absl::Status SqliteJourneyStore::FinishJourney(const std::string& name) {
   });
 }
 
-absl::Status SqliteJourneyStore::SetWriter(const std::string& name, const std::string& writer_id) {
-  return Write(
-      [&](Connection& connection) { return SetJourneyWriter(connection, name, writer_id); });
+absl::StatusOr<AcquiredJourney> SqliteJourneyStore::AcquireJourney(const std::string& name,
+                                                                   const std::string& writer_id) {
+  AcquiredJourney acquired;
+  const absl::Status status = Transact([&](Connection& connection) -> absl::Status {
+    HOMING_ASSIGN_OR_RETURN(JourneyRow row, FindJourney(connection, name));
+    if (row.record.state == JourneyState::kFinished) {
+      return absl::FailedPreconditionError(absl::StrCat("journey '", name, "' is finished"));
+    }
+    if (row.record.writer_id != writer_id) {
+      HOMING_RETURN_IF_ERROR(SetJourneyWriter(connection, name, writer_id));
+      row.record.writer_id = writer_id;
+    }
+    acquired = {appends_.Acquire(name), std::move(row.record)};
+    return absl::OkStatus();
+  });
+  HOMING_RETURN_IF_ERROR(status);
+  return acquired;
 }
 
 absl::Status SqliteJourneyStore::SetReaders(const std::string& name,
@@ -210,6 +228,29 @@ absl::StatusOr<JourneyMap> SqliteJourneyStore::LoadMap(const std::string& name) 
   });
 }
 
+absl::StatusOr<JourneyGrowth> SqliteJourneyStore::LoadSteps(const std::string& name,
+                                                            std::int64_t first) {
+  return ReadOne<JourneyGrowth>([&](Connection& connection) -> absl::StatusOr<JourneyGrowth> {
+    HOMING_ASSIGN_OR_RETURN(JourneyRow row, FindJourney(connection, name));
+    HOMING_ASSIGN_OR_RETURN(std::vector<JourneyStep> steps, ReadSteps(connection, row, first));
+    return JourneyGrowth{std::move(row.record), std::move(steps)};
+  });
+}
+
+absl::StatusOr<std::vector<JourneyMark>> SqliteJourneyStore::LoadMarks(
+    const std::vector<std::string>& names) {
+  std::vector<JourneyMark> marks;
+  for (const std::string& name : names) {
+    const absl::StatusOr<JourneyRecord> record = GetJourney(name);
+    if (absl::IsNotFound(record.status())) continue;
+    HOMING_RETURN_IF_ERROR(record.status());
+    const MutexLock lock(write_mutex_);
+    marks.push_back({name, record->create_time_ns, record->state, record->next_sequence,
+                     appends_.epoch(name), 0});
+  }
+  return marks;
+}
+
 absl::StatusOr<JourneyTail> SqliteJourneyStore::LoadTail(const std::string& name) {
   return ReadOne<JourneyTail>([&](Connection& connection) -> absl::StatusOr<JourneyTail> {
     HOMING_ASSIGN_OR_RETURN(JourneyRow row, FindJourney(connection, name));
@@ -219,11 +260,7 @@ absl::StatusOr<JourneyTail> SqliteJourneyStore::LoadTail(const std::string& name
 
 absl::Status SqliteJourneyStore::ImportJourney(const JourneyRecord& record, const JourneyMap& map) {
   HOMING_RETURN_IF_ERROR(Validate(record.settings));
-  JourneyRecord finished = record;
-  finished.state = JourneyState::kFinished;
-  finished.step_count = map.step_count();
-  finished.landmark_count = static_cast<std::int32_t>(map.landmarks().size());
-  finished.fingerprint_count = static_cast<std::int64_t>(map.all_fingerprints().size());
+  const JourneyRecord finished = FinishedRecord(record, map);
   return Write([&](Connection& connection) -> absl::Status {
     HOMING_ASSIGN_OR_RETURN(std::int64_t id, InsertJourney(connection, finished));
     WriteMap(connection, id, map);

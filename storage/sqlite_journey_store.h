@@ -42,11 +42,15 @@ class SqliteJourneyStore final : public JourneyStore {
                                                           int limit) override;
   absl::Status DeleteJourney(const std::string& name) override;
   absl::Status FinishJourney(const std::string& name) override;
-  absl::Status SetWriter(const std::string& name, const std::string& writer_id) override;
+  absl::StatusOr<AcquiredJourney> AcquireJourney(const std::string& name,
+                                                 const std::string& writer_id) override;
   absl::Status SetReaders(const std::string& name,
                           const std::vector<std::string>& readers) override;
   std::vector<absl::Status> AppendSteps(const std::vector<JourneyAppend>& appends) override;
   absl::StatusOr<JourneyMap> LoadMap(const std::string& name) override;
+  absl::StatusOr<JourneyGrowth> LoadSteps(const std::string& name, std::int64_t first) override;
+  absl::StatusOr<std::vector<JourneyMark>> LoadMarks(
+      const std::vector<std::string>& names) override;
   absl::StatusOr<JourneyTail> LoadTail(const std::string& name) override;
   absl::Status ImportJourney(const JourneyRecord& record, const JourneyMap& map) override;
   absl::Status WriteHealth() override;

@@ -4,9 +4,6 @@
 #define STORAGE_STEP_APPENDS_H_
 
 #include <cstdint>
-#include <map>
-#include <optional>
-#include <set>
 #include <string>
 #include <unordered_map>
 #include <vector>
@@ -14,6 +11,7 @@
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
 #include "storage/connection.h"
+#include "storage/growing_journey.h"
 #include "storage/journey_store.h"
 
 namespace homing::storage {
@@ -24,50 +22,29 @@ class StepAppends {
  public:
   explicit StepAppends(Connection* connection) : connection_(connection) {}
 
-  // Checks everything first; after an error nothing of this append is written. NOT_FOUND,
-  // FAILED_PRECONDITION (finished, other input), OUT_OF_RANGE (the sequence is not the next),
-  // INVALID_ARGUMENT (the step does not continue the journey).
+  // After an error nothing of this append is written. NOT_FOUND; errors of Grow.
   absl::Status Append(const JourneyAppend& append);
   // Writes the changed journeys' rows. Call it once a transaction, after the last append.
   void Write();
+  // Of the last acquisition; 0: none since the store was opened.
+  std::int64_t epoch(const std::string& name) const;
+  // Returns a new epoch, larger than any before.
+  std::int64_t Acquire(const std::string& name);
+  // The journey is deleted.
+  void ForgetEpoch(const std::string& name) { epochs_.erase(name); }
   // Clears the kept rows: a transaction failed, or other code wrote.
   void Forget();
 
  private:
-  // The part of a row of `journeys` that appending needs.
-  struct JourneyColumns {
-    std::int64_t id = 0;
-    JourneyState state = JourneyState::kActive;
-    InputKind input = InputKind::kUnknown;
-    std::int64_t next_sequence = 0;
-    std::int64_t resend_from = 0;
-    std::int64_t step_count = 0;
-    // JourneyStep::sequence of the last step; -1: none.
-    std::int64_t last_sequence = -1;
-    std::int32_t landmark_count = 0;
-    // The landmarks of the last step, and some others.
-    std::map<std::int32_t, Side> sides;
-    // The members below count since the transaction began; times are 0 if none.
-    std::int64_t first_time_ns = 0;
-    std::int64_t last_time_ns = 0;
-    std::int64_t new_fingerprints = 0;
-    std::optional<JourneySettings> new_settings;
-    bool is_changed = false;
-  };
-
-  absl::StatusOr<JourneyColumns*> Find(const std::string& name);
-  // DATA_LOSS: no step holds it.
-  absl::StatusOr<Side> SideOf(JourneyColumns& journey, std::int32_t landmark);
-  absl::Status CheckLandmark(JourneyColumns& journey, const RecordedFingerprint& recorded,
-                             std::set<std::int32_t>& seen);
-  absl::Status CheckStep(JourneyColumns& journey, const JourneyStep& step, std::int64_t sequence);
-  static absl::Status CheckContinues(const JourneyColumns& journey, const JourneyAppend& append);
-  void AddStep(JourneyColumns& journey, const JourneyAppend& append);
-  void WriteJourney(JourneyColumns& journey);
+  absl::StatusOr<GrowingJourney*> Find(const std::string& name);
+  void WriteJourney(GrowingJourney& journey);
 
   Connection* const connection_;
-  std::unordered_map<std::string, JourneyColumns> journeys_;
-  std::vector<JourneyColumns*> changed_;
+  std::unordered_map<std::string, GrowingJourney> journeys_;
+  std::vector<GrowingJourney*> changed_;
+  // One process writes the file, and its appends end with it: epochs need not be stored.
+  std::unordered_map<std::string, std::int64_t> epochs_;
+  std::int64_t last_epoch_ = 0;
 };
 
 }  // namespace homing::storage

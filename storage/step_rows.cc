@@ -7,6 +7,7 @@
 #include "absl/strings/str_cat.h"
 #include "homing/base/status_macros.h"
 #include "homing/landmark/profile_code.h"
+#include "storage/map_assembly.h"
 #include "storage/step_id.h"
 
 namespace homing::storage {
@@ -88,8 +89,7 @@ std::int64_t FindLastSequence(Connection& connection, std::int64_t journey_id,
   Query query =
       connection.Prepare(kSelectLast, StepId(journey_id, 0), StepId(journey_id, step_count));
   if (!query.Next()) return step_count == 0 ? -1 : step_count;
-  // Steps without one follow the step before.
-  return query.Integer(1) + step_count - 1 - StepOfId(query.Integer(0));
+  return LastSequence(StepOfId(query.Integer(0)), query.Integer(1), step_count);
 }
 
 Query SelectSteps(Connection& connection, std::int64_t journey_id, std::int64_t first) {
@@ -123,17 +123,16 @@ absl::StatusOr<JourneyStep> ReadStep(Query& row) {
   return step;
 }
 
-void FindSides(Connection& connection, std::int64_t journey_id, std::int32_t landmark,
-               std::map<std::int32_t, Side>& sides) {
+std::optional<Side> FindSide(Connection& connection, std::int64_t journey_id,
+                             std::int32_t landmark) {
   Query query =
       connection.Prepare(kSelectLandmarksBack, StepId(journey_id, 0), StepId(journey_id + 1, 0));
-  while (!sides.contains(landmark) && query.Next()) {
+  while (query.Next()) {
     for (int place = 0; place < 2 * kPlacesOfSide; ++place) {
-      if (!query.IsNull(place)) {
-        sides.emplace(SmallInteger(query, place), SideOfPlace(place));
-      }
+      if (!query.IsNull(place) && SmallInteger(query, place) == landmark) return SideOfPlace(place);
     }
   }
+  return std::nullopt;
 }
 
 }  // namespace homing::storage

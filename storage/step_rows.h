@@ -4,7 +4,7 @@
 #define STORAGE_STEP_ROWS_H_
 
 #include <cstdint>
-#include <map>
+#include <optional>
 
 #include "absl/status/statusor.h"
 #include "homing/journey/journey_map.h"
@@ -24,10 +24,10 @@ Query SelectSteps(Connection& connection, std::int64_t journey_id, std::int64_t 
 // INVALID_ARGUMENT: a flow profile of another form.
 absl::StatusOr<JourneyStep> ReadStep(Query& row);
 
-// Adds the sides of landmarks, from the last step backwards until that of `landmark` is known, or
-// of all landmarks if no step holds it. It mostly reads one row.
-void FindSides(Connection& connection, std::int64_t journey_id, std::int32_t landmark,
-               std::map<std::int32_t, Side>& sides);
+// The side of a landmark, searched from the last step backwards; none: no step holds it. It mostly
+// reads few rows.
+std::optional<Side> FindSide(Connection& connection, std::int64_t journey_id,
+                             std::int32_t landmark);
 
 }  // namespace homing::storage
 

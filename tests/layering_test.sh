@@ -26,6 +26,7 @@ homing/matching     homing/matching $below_matching
 homing/profile      homing/profile $below_matching
 homing/localization homing/localization homing/matching homing/profile $below_matching
 storage             storage homing/
+storage/postgres    storage/postgres storage homing/
 proto/wire          $messages homing/
 server/process      server/process
 server/base         server/base homing/base
@@ -102,6 +103,8 @@ check_contents() {
     forbid 'gRPC or Protobuf where no network may be' 'grpc|google/protobuf|\.pb\.h' $(sources $no_network)
     forbid 'SQLite outside storage' 'include *[<"](sqlite3|SQLiteCpp)' \
       $(sources homing server proto client tests | grep -vE '^(tests/(storage|benchmark)|client/bag)/')
+    forbid 'PostgreSQL outside storage' 'include *[<"]libpq' \
+      $(sources homing server proto client tests storage | grep -vE '^(storage/postgres|tests/storage)/')
     forbid '.value() outside tests' '\.value\(\)' $(sources homing storage server proto client)
     forbid 'CHECK outside tests and main' '(^|[^_[:alnum:]])D?CHECK(_[A-Z]+)?\(|(^|[^_[:alnum:]])(abort|assert)\(' \
       $(sources homing storage server proto client | grep -v '/main\.cc$')
@@ -177,6 +180,9 @@ self_test() {
   plant storage/a.cc 'CHECK(ok);'
   plant storage/a.cc '#include <opencv2/core.hpp>'
   plant server/a.cc '#include <sqlite3.h>'
+  plant server/a.cc '#include <libpq-fe.h>'
+  plant storage/a.cc '#include <libpq-fe.h>'
+  plant storage/a.cc '#include "storage/postgres/pg_connection.h"'
   plant server/a.cc '#include "client/frame_source.h"'
   plant server/base/a.h '#include "homing/journey/journey_map.h"'
   plant server/base/a.cc '#include "server/rpc/status_conversion.h"'

@@ -61,7 +61,8 @@ absl::Status Session::PrintJson(const nlohmann::ordered_json& line) const {
 
 void AddCommonFlags(CLI::App& app, Session& session) {
   ConnectionOptions& connection = session.connection;
-  app.add_option("--server", connection.address, "Address of homing-server, HOST:PORT")
+  app.add_option("--server", connection.address,
+                 "Address of homing-server, HOST:PORT; several with commas, or dns:///NAME:PORT")
       ->capture_default_str()
       ->check([](const std::string& text) {  // CLI11 names the flag itself.
         const std::string wrong(CheckServerAddress(text).message());

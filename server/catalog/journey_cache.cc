@@ -26,6 +26,13 @@ void JourneyCache::Erase(const std::string& name) {
   entries_.erase(name);
 }
 
+std::map<std::string, std::shared_ptr<LiveJourney>> JourneyCache::All() {
+  const MutexLock lock(mutex_);
+  std::map<std::string, std::shared_ptr<LiveJourney>> all;
+  for (const auto& [name, entry] : entries_) all.emplace_hint(all.end(), name, entry.journey);
+  return all;
+}
+
 void JourneyCache::SetTime(TimePoint now) {
   const MutexLock lock(mutex_);
   now_ = std::max(now_, now);

@@ -8,6 +8,8 @@
 #include "homing/base/status_macros.h"
 #include "server/base/error_reason.h"
 #include "server/catalog/fleet_index.h"
+#include "server/catalog/journey_errors.h"
+#include "server/catalog/same_journey.h"
 
 namespace homing::server {
 namespace {
@@ -20,28 +22,9 @@ std::string PrefixOf(const std::string& robot) {
   return robot == kWildcard ? "robots/" : absl::StrCat("robots/", robot, "/journeys/");
 }
 
-// The first observation sets image sizes that the request left open. Such a difference is not a
-// difference of settings.
-JourneySettings WithSizesOf(JourneySettings settings, const JourneySettings& known) {
-  for (std::size_t side = 0; side < settings.cameras.size(); ++side) {
-    if (settings.cameras[side].width == 0 && settings.cameras[side].height == 0) {
-      settings.cameras[side].width = known.cameras[side].width;
-      settings.cameras[side].height = known.cameras[side].height;
-    }
-  }
-  return settings;
-}
-
 absl::Status NoneCovered(const JourneyName& pattern) {
   return absl::NotFoundError(
       absl::StrCat("journey: \"", pattern.ToString(), "\" covers no journey"));
-}
-
-bool IsSameJourney(const JourneyRecord& wanted, const JourneyRecord& present) {
-  return present.state == storage::JourneyState::kActive && !wanted.writer_id.empty() &&
-         wanted.writer_id == present.writer_id &&
-         std::ranges::is_permutation(wanted.readers, present.readers) &&
-         WithSizesOf(wanted.settings, present.settings) == present.settings;
 }
 
 }  // namespace
@@ -103,7 +86,8 @@ absl::StatusOr<JourneyRecord> JourneyCatalog::Create(const JourneyRecord& record
 }
 
 absl::StatusOr<JourneyRecord> JourneyCatalog::Get(const std::string& name) {
-  if (const auto journey = cache_.Find(name)) {
+  // Memory may lag behind what another server has written.
+  if (const auto journey = shared() ? nullptr : cache_.Find(name)) {
     return journey->record();
   }
   return store_->GetJourney(name);
@@ -137,9 +121,7 @@ absl::Status JourneyCatalog::Delete(const std::string& name) {
   const MutexLock lock(StripeOf(name));
   const auto journey = cache_.Find(name);
   if (journey) {
-    journey->EvictWriter(
-        WithReason(absl::AbortedError(absl::StrCat("journey: \"", name, "\" was deleted")),
-                   {"JOURNEY_DELETED", {}}));
+    journey->EvictWriter(JourneyDeleted(name));
   }
   HOMING_RETURN_IF_ERROR(store_->DeleteJourney(name));
   if (index_ != nullptr) {
@@ -156,16 +138,16 @@ absl::StatusOr<JourneyRecord> JourneyCatalog::Finish(const std::string& name,
                                                      const std::string& writer_id, bool force,
                                                      TimePoint now) {
   const MutexLock lock(StripeOf(name));
+  if (!force) {
+    HOMING_RETURN_IF_ERROR(store_->CheckLease(name, writer_id));
+  }
   const auto journey = cache_.Find(name);
   if (journey) {
     if (!force) {
       HOMING_RETURN_IF_ERROR(writer_id.empty() ? journey->CheckNoStream(now)
                                                : journey->CheckWriter(writer_id, now));
     }
-    journey->EvictWriter(
-        WithReason(absl::FailedPreconditionError(absl::StrCat(
-                       "journey: \"", name, "\" is finished and takes no observations")),
-                   {"JOURNEY_FINISHED", {}}));
+    journey->EvictWriter(JourneyFinished(name));
   }
   HOMING_RETURN_IF_ERROR(store_->FinishJourney(name));
   if (journey) {
@@ -285,13 +267,17 @@ absl::StatusOr<WriterClaim> JourneyCatalog::Claim(const std::string& name,
   }
   cache_.SetTime(now);
   HOMING_RETURN_IF_ERROR(journey->CheckClaim(writer_id, now));
-  // Disk first: memory holds committed state only.
-  if (journey->record().writer_id != writer_id) {
-    HOMING_RETURN_IF_ERROR(store_->SetWriter(name, writer_id));
+  HOMING_ASSIGN_OR_RETURN(const LiveClaim claim, journey->Claim(writer_id, now, std::move(evict)));
+  return WriterClaim{std::move(journey), claim.number, claim.epoch};
+}
+
+void JourneyCatalog::Drop(const std::shared_ptr<LiveJourney>& journey) {
+  const MutexLock lock(StripeOf(journey->name()));
+  journey->EvictWriter(JourneyDeleted(journey->name()));
+  journey->MarkDeleted();
+  if (cache_.Find(journey->name()) == journey) {
+    cache_.Erase(journey->name());
   }
-  HOMING_ASSIGN_OR_RETURN(const std::uint64_t claim,
-                          journey->Claim(writer_id, now, std::move(evict)));
-  return WriterClaim{std::move(journey), claim};
 }
 
 }  // namespace homing::server

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <functional>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -26,6 +27,8 @@ using JourneyFilter = std::function<bool(const storage::JourneyRecord&)>;
 struct WriterClaim {
   std::shared_ptr<LiveJourney> journey;
   std::uint64_t claim = 0;
+  // For JourneyAppend.
+  std::int64_t epoch = 0;
 };
 
 struct CatalogOptions {
@@ -81,9 +84,16 @@ class JourneyCatalog {
   // were deleted meanwhile. NOT_FOUND: none is left. RESOURCE_EXHAUSTED: the maps of a wildcard,
   // and those in use by others, need more memory than cache_bytes.
   absl::Status LoadMaps(const JourneyName& pattern, LiveJourneys* journeys);
-  // As LiveJourney::Claim; also stores the writer. Loads no map. NOT_FOUND.
+  // As LiveJourney::Claim. Loads no map. NOT_FOUND.
   absl::StatusOr<WriterClaim> Claim(const std::string& name, const std::string& writer_id,
                                     TimePoint now, WriterLease::Evict evict);
+
+  // Other servers write to the store: a JourneyFollower must run.
+  bool shared() const { return store_->shared(); }
+  // The journeys in memory, by name.
+  std::map<std::string, std::shared_ptr<LiveJourney>> InMemory() { return cache_.All(); }
+  // Ends the use of a journey that is not in the store any more.
+  void Drop(const std::shared_ptr<LiveJourney>& journey);
 
  private:
   // Serialises creation, loading, finishing and deletion of one journey.

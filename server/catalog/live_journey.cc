@@ -6,18 +6,11 @@
 #include "absl/strings/str_cat.h"
 #include "homing/base/mutex.h"
 #include "homing/base/status_macros.h"
-#include "server/base/error_reason.h"
 #include "server/catalog/fleet_index.h"
+#include "server/catalog/journey_errors.h"
 
 namespace homing::server {
 namespace {
-
-absl::Status ClaimOver(const std::string& name) {
-  return WithReason(
-      absl::AbortedError(absl::StrCat(
-          "journey: \"", name, "\" was taken over by another stream; one stream may write it")),
-      {"WRITER_REPLACED", {}});
-}
 
 void CountStep(const JourneyStep& step, storage::JourneyRecord* record) {
   record->step_count = std::max(record->step_count, step.step + 1);
@@ -66,9 +59,7 @@ absl::Status LiveJourney::CheckPresent() const {
 absl::Status LiveJourney::CheckWritable() const {
   HOMING_RETURN_IF_ERROR(CheckPresent());
   if (record_.state == storage::JourneyState::kFinished) {
-    return WithReason(absl::FailedPreconditionError(absl::StrCat(
-                          "journey: \"", name_, "\" is finished and takes no observations")),
-                      {"JOURNEY_FINISHED", {}});
+    return JourneyFinished(name_);
   }
   return absl::OkStatus();
 }
@@ -77,20 +68,35 @@ void LiveJourney::AwaitQuiet() {
   while (appends_under_way_ > 0) quiet_.Wait(mutex_);
 }
 
-absl::StatusOr<std::uint64_t> LiveJourney::Claim(const std::string& writer_id, TimePoint now,
-                                                 WriterLease::Evict evict) {
+absl::StatusOr<LiveClaim> LiveJourney::Claim(const std::string& writer_id, TimePoint now,
+                                             WriterLease::Evict evict) {
   WriterLease::Evict previous;
-  std::uint64_t claim = 0;
+  LiveClaim claim;
   {
     const MutexLock lock(mutex_);
     HOMING_RETURN_IF_ERROR(CheckWritable());
     HOMING_RETURN_IF_ERROR(lease_.CheckFree(writer_id, now));
-    claim = lease_.Take(writer_id, now, std::move(evict), &previous);
+    claim.number = lease_.Take(writer_id, now, std::move(evict), &previous);
     AwaitQuiet();
-    record_.writer_id = writer_id;
   }
   if (previous) {
-    previous(ClaimOver(name_));
+    previous(WriterReplaced(name_));
+  }
+  const auto acquired = store_->AcquireJourney(name_, writer_id);
+  bool is_behind = false;
+  {
+    const MutexLock lock(mutex_);
+    if (!acquired.ok()) {
+      lease_.Release();
+      return acquired.status();
+    }
+    claim.epoch = epoch_ = acquired->epoch;
+    record_.writer_id = writer_id;
+    is_behind = acquired->record.next_sequence != record_.next_sequence ||
+                !(acquired->record.settings == record_.settings);
+  }
+  if (is_behind) {
+    HOMING_RETURN_IF_ERROR(CatchUp());
   }
   return claim;
 }
@@ -104,7 +110,7 @@ absl::Status LiveJourney::CheckClaim(const std::string& writer_id, TimePoint now
 absl::Status LiveJourney::Renew(std::uint64_t claim, TimePoint now) {
   const MutexLock lock(mutex_);
   if (!lease_.Holds(claim)) {
-    return ClaimOver(name_);
+    return WriterReplaced(name_);
   }
   lease_.Renew(now);
   return absl::OkStatus();
@@ -113,7 +119,7 @@ absl::Status LiveJourney::Renew(std::uint64_t claim, TimePoint now) {
 absl::Status LiveJourney::BeginAppend(std::uint64_t claim) {
   const MutexLock lock(mutex_);
   if (!lease_.Holds(claim)) {
-    return ClaimOver(name_);
+    return WriterReplaced(name_);
   }
   ++appends_under_way_;
   return absl::OkStatus();

@@ -19,6 +19,12 @@ namespace homing::server {
 
 class FleetIndex;
 
+// A writer's claim of a journey: its number in this server, and its epoch in the store.
+struct LiveClaim {
+  std::uint64_t number = 0;
+  std::int64_t epoch = 0;
+};
+
 // Holds committed state only. Thread-safe. The map is loaded when the first reader needs it, since
 // most recorded journeys have no reader. From then on committed steps wait in a short list until a
 // reader or an idle moment applies them to the map: the committing thread never waits for threads
@@ -42,11 +48,12 @@ class LiveJourney {
 
   // -- Writing. A stream holds a claim from its first message on.
 
-  // Gives the journey to `writer_id`: ends the previous claim (calls its evict with ABORTED), then
-  // waits until its pending appends are committed. FAILED_PRECONDITION: finished; ABORTED: another
-  // writer holds the lease; NOT_FOUND: deleted.
-  absl::StatusOr<std::uint64_t> Claim(const std::string& writer_id, TimePoint now,
-                                      WriterLease::Evict evict);
+  // Gives the journey to `writer_id`: ends the previous claim (calls its evict with ABORTED), waits
+  // until its pending appends are committed, and acquires the journey in the store.
+  // FAILED_PRECONDITION: finished; ABORTED: another writer holds the lease; NOT_FOUND: deleted;
+  // errors of the store. REQUIRES: one call at a time.
+  absl::StatusOr<LiveClaim> Claim(const std::string& writer_id, TimePoint now,
+                                  WriterLease::Evict evict);
   // The error that Claim would return.
   absl::Status CheckClaim(const std::string& writer_id, TimePoint now) const;
   // Renews the lease. ABORTED: the claim has ended.
@@ -71,6 +78,14 @@ class LiveJourney {
   void MarkFinished();
   void MarkDeleted();
 
+  // -- Of a store that other servers write to.
+
+  // Compares with `mark`, which is of this moment or earlier. Ends the claim of a writer that was
+  // replaced or whose journey was finished, and catches up. Errors of the store.
+  absl::Status Follow(const storage::JourneyMark& mark);
+  // Takes over the stored state, with the steps that other servers added. Errors of the store.
+  absl::Status CatchUp();
+
   // -- Reading.
 
   // Loads the map if necessary; recording continues meanwhile. NOT_FOUND: deleted. After an error
@@ -92,6 +107,8 @@ class LiveJourney {
   absl::Status CheckPresent() const HOMING_REQUIRES(mutex_);
   absl::Status CheckWritable() const HOMING_REQUIRES(mutex_);
   void AwaitQuiet() HOMING_REQUIRES(mutex_);
+  // False: the map was requested meanwhile, and its new steps were not loaded.
+  bool TakeGrowth(storage::JourneyGrowth growth, bool with_steps);
   void AbsorbSteps() HOMING_REQUIRES(map_mutex_);
 
   const std::string name_;
@@ -107,6 +124,10 @@ class LiveJourney {
   ConditionVariable quiet_;
   storage::JourneyRecord record_ HOMING_GUARDED_BY(mutex_);
   WriterLease lease_ HOMING_GUARDED_BY(mutex_);
+  // Of the last claim here; 0: none.
+  std::int64_t epoch_ HOMING_GUARDED_BY(mutex_) = 0;
+  // JourneyMark::revision of record_; -1: unknown.
+  std::int64_t revision_ HOMING_GUARDED_BY(mutex_) = -1;
   int appends_under_way_ HOMING_GUARDED_BY(mutex_) = 0;
   bool deleted_ HOMING_GUARDED_BY(mutex_) = false;
   MapState map_state_ HOMING_GUARDED_BY(mutex_) = MapState::kNone;

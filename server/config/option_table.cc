@@ -24,7 +24,8 @@ constexpr std::int64_t kMaxMessage = 268'435'456;
 
 const std::array kOptions = {
     ServerOption{"listen", HOMING_OPTION(listen), "Address and port; port 0 picks one"},
-    ServerOption{"database", HOMING_OPTION(database), "sqlite:PATH"},
+    ServerOption{"database", HOMING_OPTION(database),
+                 "sqlite:PATH, or postgresql://HOST/NAME for several servers"},
     ServerOption{"http", HOMING_OPTION(http), "Address of GET /metrics; \"off\": none"},
     ServerOption{"tls-cert", HOMING_OPTION(tls_cert), "Certificate chain, PEM"},
     ServerOption{"tls-key", HOMING_OPTION(tls_key), "Its private key, PEM"},
@@ -77,6 +78,10 @@ const std::array kOptions = {
                  static_cast<std::int64_t>(kMaxFlowVectors), "vectors", false, true},
     ServerOption{"workers", HOMING_OPTION(workers), "Threads that compute; 0: one a core", 0, 1024,
                  "threads"},
+    ServerOption{"max-connection-age-s", HOMING_OPTION(max_connection_age_s),
+                 "A connection this old is closed, so that clients spread over several servers "
+                 "again, s; 0: never",
+                 0, 86'400, "s"},
     ServerOption{"drain-ms", HOMING_OPTION(drain_ms), "Time for streams to end at shutdown, ms", 0,
                  600'000, "ms"},
     ServerOption{"map-cache", HOMING_OPTION(map_cache),

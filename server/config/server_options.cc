@@ -4,6 +4,7 @@
 #include "homing/base/host_port.h"
 #include "homing/base/status_macros.h"
 #include "server/config/option_table.h"
+#include "storage/database_url.h"
 
 namespace homing::server {
 namespace {
@@ -28,6 +29,18 @@ bool IsLoopback(const std::string& address) {
 absl::Status CheckListenAddress(const std::string& field, const std::string& address) {
   if (address.rfind("unix:", 0) == 0) return absl::OkStatus();
   return ParseHostPort(field, address, 0).status();
+}
+
+// PostgreSQL limits its size by its own means; the index would not see other servers' journeys.
+absl::Status CheckForPostgres(const ServerOptions& options) {
+  if (!storage::IsPostgresUrl(options.database)) return absl::OkStatus();
+  if (options.limits.max_database != 0) {
+    return FieldError("max-database", "must be 0 with a postgresql database");
+  }
+  if (options.all_journeys_index) {
+    return FieldError("all-journeys-index", "must not be set with a postgresql database");
+  }
+  return absl::OkStatus();
 }
 
 }  // namespace
@@ -55,7 +68,7 @@ absl::Status Validate(const ServerOptions& options) {
     return TextMustBe("listen", options.listen,
                       "a loopback address without TLS; set tls-cert and tls-key, or insecure");
   }
-  return absl::OkStatus();
+  return CheckForPostgres(options);
 }
 
 }  // namespace homing::server

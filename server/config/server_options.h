@@ -16,7 +16,7 @@ namespace homing::server {
 struct ServerOptions {
   // Host and port; port 0 picks one.
   std::string listen = "127.0.0.1:50551";
-  // "sqlite:PATH".
+  // "sqlite:PATH", or "postgresql://..." for several servers.
   std::string database = "sqlite:homing.db";
   // PEM files; both or neither. With a client CA, clients must show a certificate signed by it.
   std::string tls_cert;
@@ -43,6 +43,9 @@ struct ServerOptions {
   int max_vectors = 100'000;
   // Threads that compute; 0: one a core.
   int workers = 0;
+  // A connection this old is closed, with 10 s for its streams, so that clients spread over the
+  // servers again; 0: never. s.
+  int max_connection_age_s = 0;
   // Time for streams to end at shutdown, ms.
   int drain_ms = 5000;
   // Map-cache limit, bytes (CatalogOptions::cache_bytes).

@@ -31,7 +31,9 @@ void ReportFinding(const std::string& kind, const storage::Finding& finding) {
 }
 
 void ReportDiagnosis(const std::string& path, const storage::Diagnosis& diagnosis) {
-  std::cout << path << ": schema version " << diagnosis.schema_version << '\n';
+  // The URL of a server may hold a password.
+  std::cout << (storage::IsPostgresUrl(path) ? "postgresql" : path) << ": schema version "
+            << diagnosis.schema_version << '\n';
   for (const std::string& problem : diagnosis.problems) {
     std::cout << "problem: " << problem << '\n';
   }
@@ -74,6 +76,10 @@ int RunDoctor(const std::string& path, const std::string& salvage_to) {
 }
 
 int RunBackup(const std::string& path, const std::string& to) {
+  if (storage::IsPostgresUrl(path)) {
+    return ReportFailure(absl::InvalidArgumentError(
+        "backup copies SQLite files; copy PostgreSQL with pg_dump or pg_basebackup"));
+  }
   const absl::Status status = storage::BackUp(path, to);
   if (!status.ok()) return ReportFailure(status);
   std::error_code ignored;

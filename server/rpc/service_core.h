@@ -18,6 +18,7 @@
 #include "server/base/worker_pool.h"
 #include "server/catalog/fleet_index.h"
 #include "server/catalog/journey_catalog.h"
+#include "server/catalog/journey_follower.h"
 #include "server/catalog/model_catalog.h"
 #include "server/metrics/metrics.h"
 #include "server/rpc/stream_registry.h"
@@ -60,6 +61,8 @@ struct ServiceCore {
         index(core_options.all_journeys_index ? std::make_unique<FleetIndex>(store.get())
                                               : nullptr),
         catalog(store.get(), core_options.catalog, index.get()),
+        follower(store->shared() ? std::make_unique<JourneyFollower>(store.get(), &catalog)
+                                 : nullptr),
         models(store.get()),
         quota(&catalog, core_options.limits),
         rates(core_options.limits.max_robot_rate),
@@ -77,6 +80,8 @@ struct ServiceCore {
   // Null without all_journeys_index.
   const std::unique_ptr<FleetIndex> index;
   JourneyCatalog catalog;
+  // Null unless other servers write to the store.
+  const std::unique_ptr<JourneyFollower> follower;
   ModelCatalog models;
   JourneyQuota quota;
   RateLimiter rates;

@@ -111,7 +111,7 @@ absl::Status RecordingSession::Process(const Observation& observation, TimePoint
   answer.is_standing = !*step && sequence > 0 && !observation.break_before;
   storage::JourneyAppend append{claim_.journey->name(),      sequence,         kind_,
                                 observation.capture_time_ns, *std::move(step), std::nullopt,
-                                recorder_->resend_from()};
+                                recorder_->resend_from(),    claim_.epoch};
   if (ImageSizes(recorder_->settings()) != sizes) {
     append.settings = recorder_->settings();
   }

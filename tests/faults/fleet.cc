@@ -14,16 +14,22 @@ int RobotOf(const std::string& journey) {
 
 }  // namespace
 
-Fleet::Fleet(const RobotOptions& options, int robots, Ledger* ledger) : ledger_(ledger) {
+Fleet::Fleet(const RobotOptions& options, int robots, Ledger* ledger, int first_journey,
+             const std::function<void(int robot)>& on_answer)
+    : ledger_(ledger) {
   for (int robot = 0; robot < robots; ++robot) {
     RobotOptions own = options;
     own.robot = robot;
-    threads_.emplace_back([this, own] { Run(own); });
+    own.on_answer = [robot, on_answer, next = options.on_answer](std::chrono::microseconds time) {
+      on_answer(robot);
+      next(time);
+    };
+    threads_.emplace_back([this, own, first_journey] { Run(own, first_journey); });
   }
 }
 
-void Fleet::Run(RobotOptions options) {
-  for (int number = 0; !stopping_; ++number) {
+void Fleet::Run(RobotOptions options, int first_journey) {
+  for (int number = first_journey; !stopping_; ++number) {
     const std::string journey = JourneyOf(options.robot, number);
     const absl::Status status = RecordOne(options, journey, ledger_);
     if (!status.ok()) {

@@ -3,6 +3,7 @@
 #define TESTS_FAULTS_FLEET_H_
 
 #include <atomic>
+#include <functional>
 #include <map>
 #include <string>
 #include <thread>
@@ -17,7 +18,11 @@ namespace homing::faults {
 
 class Fleet {
  public:
-  Fleet(const RobotOptions& options, int robots, Ledger* ledger);
+  // Each robot numbers its journeys from `first_journey` on, and reports its answers to
+  // `on_answer`.
+  Fleet(
+      const RobotOptions& options, int robots, Ledger* ledger, int first_journey = 0,
+      const std::function<void(int robot)>& on_answer = [](int) {});
   // As Finish.
   ~Fleet() { Finish(); }
 
@@ -29,7 +34,7 @@ class Fleet {
   std::string error() const;
 
  private:
-  void Run(RobotOptions options);
+  void Run(RobotOptions options, int first_journey);
 
   Ledger* const ledger_;
   std::atomic<bool> stopping_ = false;

@@ -36,7 +36,15 @@ class HeldStore : public JourneyStore {
   }
   absl::Status DeleteJourney(const std::string&) override { return result; }
   absl::Status FinishJourney(const std::string&) override { return result; }
-  absl::Status SetWriter(const std::string&, const std::string&) override { return result; }
+  absl::StatusOr<AcquiredJourney> AcquireJourney(const std::string&, const std::string&) override {
+    return result;
+  }
+  absl::StatusOr<JourneyGrowth> LoadSteps(const std::string&, std::int64_t) override {
+    return result;
+  }
+  absl::StatusOr<std::vector<JourneyMark>> LoadMarks(const std::vector<std::string>&) override {
+    return result;
+  }
   absl::Status SetReaders(const std::string&, const std::vector<std::string>&) override {
     return result;
   }

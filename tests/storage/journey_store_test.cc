@@ -53,7 +53,9 @@ TEST_P(JourneyStoreTest, NamesTheJourneyThatDoesNotExist) {
   EXPECT_THAT(store_->LoadMap(kJourney), not_found);
   EXPECT_THAT(store_->DeleteJourney(kJourney), not_found);
   EXPECT_THAT(store_->FinishJourney(kJourney), not_found);
-  EXPECT_THAT(store_->SetWriter(kJourney, "w"), not_found);
+  EXPECT_THAT(store_->AcquireJourney(kJourney, "w"), not_found);
+  EXPECT_THAT(store_->LoadSteps(kJourney, 0), not_found);
+  EXPECT_THAT(store_->LoadMarks({kJourney}).value(), IsEmpty());
   EXPECT_THAT(store_->SetReaders(kJourney, {}), not_found);
 }
 
@@ -82,7 +84,7 @@ TEST_P(JourneyStoreTest, ListsOnlyTheNamesThatBeginWithThePrefix) {
 
 TEST_P(JourneyStoreTest, FinishesAndChangesTheWriter) {
   ASSERT_THAT(store_->CreateJourney(Record(kJourney)), IsOk());
-  ASSERT_THAT(store_->SetWriter(kJourney, "second"), IsOk());
+  ASSERT_THAT(store_->AcquireJourney(kJourney, "second"), IsOk());
   ASSERT_THAT(store_->FinishJourney(kJourney), IsOk());
   EXPECT_THAT(store_->FinishJourney(kJourney), IsOk());
   EXPECT_EQ(store_->GetJourney(kJourney)->writer_id, "second");
@@ -133,11 +135,10 @@ TEST_P(JourneyStoreTest, GivesBackDeviationModelsInOrderOfName) {
   EXPECT_EQ(store_->ListModels(other.name, 10)->at(0).name, model.name);
 }
 
-INSTANTIATE_TEST_SUITE_P(Stores, JourneyStoreTest, ::testing::Bool(),
-                         [](const auto& test) { return test.param ? "File" : "Memory"; });
+INSTANTIATE_TEST_SUITE_P(Stores, JourneyStoreTest, EveryKind(), KindName);
 
 TEST(OpenJourneyStore, RefusesAnAddressItDoesNotKnow) {
-  for (const char* url : {"", "sqlite:", "homing.db", "postgres://x"}) {
+  for (const char* url : {"", "sqlite:", "homing.db", "mysql://x"}) {
     StoreOptions options;
     options.url = url;
     EXPECT_THAT(OpenJourneyStore(options),

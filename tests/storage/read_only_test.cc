@@ -67,7 +67,7 @@ TEST_F(ReadOnlyTest, RefusesEveryWrite) {
   EXPECT_THAT((*store)->CreateJourney(Record("robots/r/journeys/k")), refused);
   EXPECT_THAT((*store)->DeleteJourney(kJourney), refused);
   EXPECT_THAT((*store)->FinishJourney(kJourney), refused);
-  EXPECT_THAT((*store)->SetWriter(kJourney, "w"), refused);
+  EXPECT_THAT((*store)->AcquireJourney(kJourney, "w"), refused);
   EXPECT_THAT((*store)->SetReaders(kJourney, {"*"}), refused);
   EXPECT_THAT((*store)->AppendSteps({AppendOf(kJourney, steps_[0])})[0], refused);
   EXPECT_THAT((*store)->CreateModel({}), refused);

@@ -5,11 +5,27 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "tests/support/postgres_server.h"
 #include "tests/support/status_matchers.h"
 
 namespace homing::storage {
 
-EveryStore::EveryStore() : store_(OpenOrDie(GetParam() ? folder_.Database() : "sqlite::memory:")) {}
+void EveryStore::SetUp() {
+  std::string url = "sqlite::memory:";
+  if (GetParam() == StoreKind::kFile) url = folder_.Database();
+  if (GetParam() == StoreKind::kPostgres) {
+    std::string reason;
+    test::PostgresServer* const server = test::PostgresServer::Shared(&reason);
+    if (server == nullptr) GTEST_SKIP() << reason;
+    url = server->NewDatabase();
+  }
+  store_ = OpenOrDie(url);
+}
+
+std::string KindName(const ::testing::TestParamInfo<StoreKind>& test) {
+  if (test.param == StoreKind::kPostgres) return "Postgres";
+  return test.param == StoreKind::kFile ? "File" : "Memory";
+}
 
 std::unique_ptr<JourneyStore> OpenOrDie(const std::string& url, std::int64_t max_bytes) {
   StoreOptions options;

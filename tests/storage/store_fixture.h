@@ -15,13 +15,20 @@ namespace homing::storage {
 
 inline constexpr char kJourney[] = "robots/r/journeys/j";
 
-// Runs for a store in a file and one in memory: `GetParam()` is true for the file.
-class EveryStore : public ::testing::TestWithParam<bool> {
+enum class StoreKind { kMemory, kFile, kPostgres };
+
+// Runs for every kind of store. Without PostgreSQL its cases are skipped.
+class EveryStore : public ::testing::TestWithParam<StoreKind> {
  protected:
-  EveryStore();
+  void SetUp() override;
   TemporaryFolder folder_;
   std::unique_ptr<JourneyStore> store_;
 };
+
+inline auto EveryKind() {
+  return ::testing::Values(StoreKind::kMemory, StoreKind::kFile, StoreKind::kPostgres);
+}
+std::string KindName(const ::testing::TestParamInfo<StoreKind>& test);
 
 // The store, which must open.
 std::unique_ptr<JourneyStore> OpenOrDie(const std::string& url, std::int64_t max_bytes = 0);

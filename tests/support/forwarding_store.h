@@ -34,9 +34,21 @@ class ForwardingStore : public JourneyStore {
   absl::Status FinishJourney(const std::string& name) override {
     return store_->FinishJourney(name);
   }
-  absl::Status SetWriter(const std::string& name, const std::string& writer_id) override {
-    return store_->SetWriter(name, writer_id);
+  absl::StatusOr<AcquiredJourney> AcquireJourney(const std::string& name,
+                                                 const std::string& writer_id) override {
+    return store_->AcquireJourney(name, writer_id);
   }
+  absl::Status CheckLease(const std::string& name, const std::string& writer_id) override {
+    return store_->CheckLease(name, writer_id);
+  }
+  absl::StatusOr<JourneyGrowth> LoadSteps(const std::string& name, std::int64_t first) override {
+    return store_->LoadSteps(name, first);
+  }
+  absl::StatusOr<std::vector<JourneyMark>> LoadMarks(
+      const std::vector<std::string>& names) override {
+    return store_->LoadMarks(names);
+  }
+  bool shared() const override { return store_->shared(); }
   absl::Status SetReaders(const std::string& name,
                           const std::vector<std::string>& readers) override {
     return store_->SetReaders(name, readers);

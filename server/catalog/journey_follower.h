@@ -1,0 +1,42 @@
+// Keeps the journeys in memory like a store that other servers write to.
+#ifndef SERVER_CATALOG_JOURNEY_FOLLOWER_H_
+#define SERVER_CATALOG_JOURNEY_FOLLOWER_H_
+
+#include <chrono>
+#include <thread>
+
+#include "absl/status/status.h"
+#include "homing/base/mutex.h"
+#include "server/catalog/journey_catalog.h"
+#include "storage/journey_store.h"
+
+namespace homing::server {
+
+// One thread that asks the store which journeys changed. A journey that is recorded through another
+// server is localised on through this one after at most one interval and one read.
+class JourneyFollower {
+ public:
+  static constexpr std::chrono::milliseconds kInterval{200};
+
+  // Both must outlive the follower.
+  JourneyFollower(storage::JourneyStore* store, JourneyCatalog* catalog);
+  ~JourneyFollower();
+  JourneyFollower(const JourneyFollower&) = delete;
+  JourneyFollower& operator=(const JourneyFollower&) = delete;
+
+ private:
+  void Run();
+  // Errors of the store; the next round tries again.
+  absl::Status FollowAll();
+
+  storage::JourneyStore* const store_;
+  JourneyCatalog* const catalog_;
+  Mutex mutex_;
+  ConditionVariable stopped_;
+  bool stopping_ HOMING_GUARDED_BY(mutex_) = false;
+  std::thread thread_;
+};
+
+}  // namespace homing::server
+
+#endif  // SERVER_CATALOG_JOURNEY_FOLLOWER_H_

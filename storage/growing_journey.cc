@@ -1,0 +1,178 @@
+#include "storage/growing_journey.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <utility>
+
+#include "absl/strings/str_cat.h"
+#include "homing/base/field_error.h"
+#include "homing/base/status_macros.h"
+#include "storage/row_words.h"
+
+namespace homing::storage {
+namespace {
+
+// Two a camera (paper III).
+constexpr int kMaxFingerprintsPerSide = 2;
+constexpr double kMaxSpread = 1e9;
+// Steps whose landmarks are kept: more than the longest track gap.
+constexpr std::int64_t kStepsSeen = 24;
+
+absl::Status CheckValues(const RecordedFingerprint& recorded) {
+  const Fingerprint& fingerprint = recorded.fingerprint;
+  if (!std::isfinite(fingerprint.x) || !std::isfinite(fingerprint.y)) {
+    return MustBe(absl::StrCat("mean of landmark ", fingerprint.landmark),
+                  absl::StrCat("(", fingerprint.x, ", ", fingerprint.y, ")"), "finite");
+  }
+  if (!(recorded.spread >= 0 && recorded.spread <= kMaxSpread)) {
+    return MustBe(absl::StrCat("spread of landmark ", fingerprint.landmark), recorded.spread,
+                  absl::StrCat("in [0, ", kMaxSpread, "]"));
+  }
+  if (fingerprint.count <= 0) {
+    return MustBe(absl::StrCat("count of landmark ", fingerprint.landmark), fingerprint.count,
+                  "at least 1");
+  }
+  return absl::OkStatus();
+}
+
+// Checks the order: left before right, at most two on a side.
+absl::Status CheckOrder(const JourneyStep& step) {
+  int left = 0;
+  int right = 0;
+  for (const RecordedFingerprint& recorded : step.fingerprints) {
+    const bool is_left = recorded.side == Side::kLeft;
+    if (is_left && right > 0) {
+      return FieldError("fingerprints",
+                        absl::StrCat("of step ", step.step, " must have left before right"));
+    }
+    if (++(is_left ? left : right) > kMaxFingerprintsPerSide) {
+      return FieldError("fingerprints", absl::StrCat("of step ", step.step, " must be at most ",
+                                                     kMaxFingerprintsPerSide, " on one side"));
+    }
+  }
+  return absl::OkStatus();
+}
+
+absl::Status CheckContinues(const GrowingJourney& journey, const JourneyAppend& append) {
+  if (journey.state != JourneyState::kActive) {
+    return absl::FailedPreconditionError(
+        absl::StrCat("journey '", append.journey, "' is finished"));
+  }
+  if (append.epoch != journey.epoch) {
+    return absl::AbortedError(absl::StrCat("journey '", append.journey,
+                                           "' was taken over by another writer (epoch ",
+                                           journey.epoch, ", not ", append.epoch, ")"));
+  }
+  if (append.sequence != journey.next_sequence) {
+    return absl::OutOfRangeError(absl::StrCat("sequence is ", append.sequence, ": ",
+                                              journey.next_sequence, " is due in journey '",
+                                              append.journey, "'"));
+  }
+  if (journey.input != InputKind::kUnknown && append.input != InputKind::kUnknown &&
+      journey.input != append.input) {
+    return absl::FailedPreconditionError(absl::StrCat("input is ", Word(append.input),
+                                                      ": journey '", append.journey,
+                                                      "' is recorded from ", Word(journey.input)));
+  }
+  return absl::OkStatus();
+}
+
+// DATA_LOSS: no step holds it.
+absl::StatusOr<Side> SideOf(GrowingJourney& journey, std::int32_t landmark,
+                            const SideFinder& find) {
+  if (const auto known = journey.seen.find(landmark); known != journey.seen.end()) {
+    return known->second.side;
+  }
+  HOMING_ASSIGN_OR_RETURN(const std::optional<Side> side, find(journey, landmark));
+  if (!side) {
+    return absl::DataLossError(absl::StrCat("store: landmark ", landmark, " is in no step"));
+  }
+  journey.seen[landmark] = {*side, journey.step_count};
+  return *side;
+}
+
+// Each landmark appears once, and is known with that side or has the next number.
+absl::Status CheckLandmark(GrowingJourney& journey, const RecordedFingerprint& recorded,
+                           const SideFinder& find, std::set<std::int32_t>& seen) {
+  const std::int32_t landmark = recorded.fingerprint.landmark;
+  const auto first_new = seen.lower_bound(journey.landmark_count);
+  const std::int64_t due = journey.landmark_count + std::distance(first_new, seen.end());
+  if (landmark < 0 || landmark > due || !seen.insert(landmark).second) {
+    return MustBe("landmark", landmark, absl::StrCat("in [0, ", due, "], once in a step"));
+  }
+  if (landmark >= journey.landmark_count) return absl::OkStatus();
+  HOMING_ASSIGN_OR_RETURN(const Side side, SideOf(journey, landmark, find));
+  if (side != recorded.side) {
+    return MustBe(absl::StrCat("side of landmark ", landmark), Word(recorded.side),
+                  absl::StrCat(Word(side), ", where it was met"));
+  }
+  return absl::OkStatus();
+}
+
+absl::Status CheckStep(GrowingJourney& journey, const JourneyStep& step, std::int64_t sequence,
+                       const SideFinder& find) {
+  const std::int64_t last = std::min(sequence, kMostSteps - 1);
+  if (step.step < journey.step_count || step.step > last) {
+    return MustBe("step", step.step, absl::StrCat("in [", journey.step_count, ", ", last, "]"));
+  }
+  const std::int64_t least = journey.last_sequence + 1 + step.step - journey.step_count;
+  if (step.sequence != kNextSequence && step.sequence < least) {
+    return absl::InvalidArgumentError(absl::StrCat("sequence of step ", step.step, " is ",
+                                                   step.sequence, ": must be at least ", least));
+  }
+  HOMING_RETURN_IF_ERROR(CheckOrder(step));
+  std::set<std::int32_t> seen;
+  for (const RecordedFingerprint& recorded : step.fingerprints) {
+    HOMING_RETURN_IF_ERROR(CheckValues(recorded));
+    HOMING_RETURN_IF_ERROR(CheckLandmark(journey, recorded, find, seen));
+  }
+  return absl::OkStatus();
+}
+
+void AddStep(GrowingJourney& journey, const JourneyStep& step, std::int64_t capture_time_ns) {
+  for (const RecordedFingerprint& recorded : step.fingerprints) {
+    const std::int32_t landmark = recorded.fingerprint.landmark;
+    journey.seen[landmark] = {recorded.side, step.step};
+    if (landmark == journey.landmark_count) ++journey.landmark_count;
+  }
+  std::erase_if(journey.seen,
+                [&](const auto& seen) { return seen.second.step < step.step - kStepsSeen; });
+  const bool is_first = journey.last_sequence < 0;
+  const std::int64_t following =
+      (is_first ? 1 : journey.last_sequence + 1) + step.step - journey.step_count;
+  journey.last_sequence = step.sequence == kNextSequence ? following : step.sequence;
+  journey.step_count = step.step + 1;
+  journey.new_fingerprints += static_cast<std::int64_t>(step.fingerprints.size());
+  // An observation without a step does not change the times, so that frames and the flow between
+  // them agree.
+  if (capture_time_ns != 0) {
+    journey.last_time_ns = capture_time_ns;
+    if (journey.first_time_ns == 0) journey.first_time_ns = capture_time_ns;
+  }
+}
+
+}  // namespace
+
+absl::Status Grow(GrowingJourney& journey, const JourneyAppend& append, const SideFinder& find) {
+  HOMING_RETURN_IF_ERROR(CheckContinues(journey, append));
+  if (append.step) {
+    HOMING_RETURN_IF_ERROR(CheckStep(journey, *append.step, append.sequence, find));
+    AddStep(journey, *append.step, append.capture_time_ns);
+  }
+  if (append.input != InputKind::kUnknown) journey.input = append.input;
+  if (append.settings) journey.new_settings = append.settings;
+  journey.next_sequence = append.sequence + 1;
+  journey.resend_from = append.resend_from;
+  return absl::OkStatus();
+}
+
+void MarkWritten(GrowingJourney& journey) {
+  journey.first_time_ns = 0;
+  journey.last_time_ns = 0;
+  journey.new_fingerprints = 0;
+  journey.new_settings.reset();
+  journey.is_changed = false;
+}
+
+}  // namespace homing::storage

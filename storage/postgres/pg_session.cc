@@ -1,0 +1,108 @@
+#include "storage/postgres/pg_session.h"
+
+#include <utility>
+
+#include "absl/strings/str_cat.h"
+#include "homing/base/status_macros.h"
+
+namespace homing::storage::postgres {
+namespace {
+
+// A transaction waits so long at most for another one's row; one that a dead server left open ends
+// by itself.
+constexpr char kSettings[] =
+    "SET lock_timeout = '2s'; SET idle_in_transaction_session_timeout = '10s';"
+    " SET client_min_messages = 'warning'";
+// pg_control_checkpoint() still shows the old timeline right after a promotion; the name of the
+// current log file does not.
+constexpr char kDescribe[] =
+    "SELECT current_setting('synchronous_commit'), current_setting('fsync'),"
+    " current_setting('server_encoding'), CASE WHEN pg_is_in_recovery() THEN 0::bigint ELSE"
+    " ('x' || substr(pg_walfile_name(pg_current_wal_lsn()), 1, 8))::bit(32)::bigint END";
+
+// A long journey takes half a second.
+constexpr std::chrono::milliseconds kReadTime{30'000};
+
+}  // namespace
+
+absl::StatusOr<std::unique_ptr<PgConnection>> PgDatabase::Connect(Deadline deadline) {
+  HOMING_ASSIGN_OR_RETURN(auto connection, PgConnection::Open(url_, access_, deadline));
+  HOMING_RETURN_IF_ERROR(connection->Execute(kSettings, deadline));
+  HOMING_ASSIGN_OR_RETURN(const PgRows rows, connection->Run(kDescribe, {}, deadline));
+  if (rows.Text(0, 2) != "UTF8") {
+    return absl::FailedPreconditionError(
+        absl::StrCat("store: the database's encoding must be UTF8, not ", rows.Text(0, 2)));
+  }
+  if (access_ == PgConnection::Access::kReadOnly) return connection;
+  const std::string commit = rows.Text(0, 0);
+  if (commit == "off" || commit == "local" || rows.Text(0, 1) != "on") {
+    return absl::FailedPreconditionError(absl::StrCat(
+        "store: synchronous_commit is ", commit, " and fsync is ", rows.Text(0, 1),
+        ": synchronous_commit must be on, remote_write or remote_apply and fsync on, or "
+        "acknowledged steps could be lost"));
+  }
+  HOMING_RETURN_IF_ERROR(CheckTimeline(rows.Integer(0, 3)));
+  return connection;
+}
+
+absl::Status PgDatabase::CheckTimeline(std::int64_t timeline) {
+  std::int64_t highest = highest_timeline_;
+  while (timeline > highest && !highest_timeline_.compare_exchange_weak(highest, timeline)) {
+  }
+  if (timeline >= highest) return absl::OkStatus();
+  return absl::UnavailableError(absl::StrCat("store: the database is on timeline ", timeline,
+                                             ", and one on timeline ", highest, " replaced it"));
+}
+
+absl::StatusOr<std::unique_ptr<PgConnection>> PgPool::Take(Deadline deadline) {
+  {
+    MutexLock lock(mutex_);
+    while (free_.empty() && unopened_ == 0) given_back_.Wait(mutex_);
+    if (!free_.empty()) {
+      std::unique_ptr<PgConnection> connection = std::move(free_.back());
+      free_.pop_back();
+      return connection;
+    }
+    --unopened_;
+  }
+  auto connection = database_->Connect(deadline);
+  if (!connection.ok()) GiveBack(nullptr);
+  return connection;
+}
+
+void PgPool::GiveBack(std::unique_ptr<PgConnection> connection) {
+  const MutexLock lock(mutex_);
+  if (connection != nullptr && !connection->is_lost()) {
+    free_.push_back(std::move(connection));
+  } else {
+    ++unopened_;
+  }
+  given_back_.NotifyOne();
+}
+
+absl::Status PgPool::ReadOnce(const Body& body, bool* is_lost) {
+  const Deadline deadline = After(kReadTime);
+  HOMING_ASSIGN_OR_RETURN(std::unique_ptr<PgConnection> connection, Take(deadline));
+  absl::Status status =
+      connection->Execute("BEGIN ISOLATION LEVEL REPEATABLE READ READ ONLY", deadline);
+  if (status.ok()) {
+    status = body(*connection, deadline);
+    const absl::Status ended = connection->Execute("COMMIT", deadline);
+    if (status.ok()) status = ended;
+  }
+  *is_lost = connection->is_lost();
+  GiveBack(std::move(connection));
+  return status;
+}
+
+absl::Status PgPool::Read(const Body& body) {
+  bool is_lost = false;
+  absl::Status status = ReadOnce(body, &is_lost);
+  // The other kept connections may be lost too: they were made before the same restart.
+  for (int tries = 0; !status.ok() && is_lost && tries < 5; ++tries) {
+    status = ReadOnce(body, &is_lost);
+  }
+  return status;
+}
+
+}  // namespace homing::storage::postgres

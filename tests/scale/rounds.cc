@@ -1,0 +1,161 @@
+// Robots on three servers, through everything that happens to servers and database.
+#include <signal.h>
+
+#include <atomic>
+#include <iostream>
+#include <thread>
+#include <vector>
+
+#include "absl/strings/str_cat.h"
+#include "storage/journey_store.h"
+#include "tests/faults/fleet.h"
+#include "tests/scale/checks.h"
+#include "tests/scale/gap_watch.h"
+#include "tests/scale/shared_database.h"
+
+namespace homing::scale {
+namespace {
+
+using faults::RobotOptions;
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+
+constexpr int kRobots = 50;
+constexpr int kServers = 3;
+// Journeys to localise on.
+constexpr int kHomeJourneys = 5;
+constexpr seconds kPause{20};
+// After each event, for robots to show the gap.
+constexpr seconds kCalm{4};
+
+RobotOptions Robots(const std::string& address) {
+  RobotOptions options;
+  options.address = address;
+  options.frames_every = 5;
+  options.observations = 60;
+  options.pace = milliseconds(100);
+  return options;
+}
+
+// Robots that localise on the finished journeys until stopped.
+class Localizers {
+ public:
+  Localizers(const RobotOptions& options, GapWatch* gaps) {
+    for (int i = 0; i < kRobots; ++i) {
+      RobotOptions own = options;
+      own.robot = i % kHomeJourneys;
+      own.on_answer = [this, gaps, i](auto) {
+        ++answers_;
+        gaps->Answered(1000 + i);
+      };
+      threads_.emplace_back([this, own] {
+        while (!stopping_) {
+          const auto share = faults::LocalizeOn(own, faults::JourneyOf(own.robot, 0));
+          if (!share.ok()) {
+            std::cerr << "localising: " << share.status() << '\n';
+            ++failed_;
+            return;
+          }
+        }
+      });
+    }
+  }
+  ~Localizers() { Finish(); }
+  void Finish() {
+    stopping_ = true;
+    for (std::thread& thread : threads_) thread.join();
+    threads_.clear();
+  }
+  int failed() const { return failed_; }
+  std::int64_t answers() const { return answers_; }
+
+ private:
+  std::atomic<bool> stopping_ = false;
+  std::atomic<int> failed_ = 0;
+  std::atomic<std::int64_t> answers_ = 0;
+  std::vector<std::thread> threads_;
+};
+
+// One of each event. False: a server or the database did not come back.
+bool RunRound(int round, SharedDatabase* database, GapWatch* gaps) {
+  faults::ServerUnderTest& killed = database->server(static_cast<std::size_t>(round % kServers));
+  gaps->SetEvent("server_killed");
+  killed.Kill();
+  std::this_thread::sleep_for(kCalm);
+  if (!killed.Start()) return false;
+  std::this_thread::sleep_for(kCalm);
+
+  const faults::ServerUnderTest& paused =
+      database->server(static_cast<std::size_t>((round + 1) % kServers));
+  gaps->SetEvent("server_paused");
+  paused.Signal(SIGSTOP);
+  std::this_thread::sleep_for(kPause);
+  paused.Signal(SIGCONT);
+  std::this_thread::sleep_for(kCalm);
+
+  gaps->SetEvent("database_promoted");
+  const bool is_promoted = database->FailOver();
+  std::this_thread::sleep_for(kCalm);
+  gaps->SetEvent("");
+  return is_promoted;
+}
+
+void CompareWithUndisturbed(const Programs& programs, const std::string& address,
+                            const faults::Ledger& ledger, faults::Figures* figures) {
+  const TemporaryFolder folder;
+  faults::ServerUnderTest calm(programs.server, folder.File(""));
+  if (!calm.Start()) return figures->Failed("scale_maps_unlike", "no server");
+  const auto maps = faults::UndisturbedMaps(calm.address(), Robots(""), kRobots);
+  calm.Stop();
+  const auto entries = ledger.entries();
+  figures->AtLeast("scale_maps_compared", static_cast<double>(entries.size()), kRobots);
+  figures->AtMost("scale_maps_unlike", faults::CountUnlike(address, entries, maps), 0);
+}
+
+void CompareWithLedger(const std::string& url, const faults::Ledger& ledger,
+                       faults::Figures* figures) {
+  const auto entries = ledger.entries();
+  const auto check = faults::CheckDatabase(url, entries);
+  if (!check.ok()) return figures->Failed("scale_acknowledged_lost", check.status().ToString());
+  figures->AtLeast("scale_acknowledged", static_cast<double>(faults::TotalOf(entries)), 1);
+  figures->AtMost("scale_acknowledged_lost", static_cast<double>(check->lost), 0);
+  // Also what a server wrote that had lost the journey to another.
+  figures->AtMost("scale_stored_twice", static_cast<double>(check->twice), 0);
+}
+
+}  // namespace
+
+void CheckRounds(const Programs& programs, int rounds, faults::Figures* figures) {
+  SharedDatabase database(programs);
+  if (!database.Start() || !database.StartServers(kServers)) {
+    return figures->Failed("scale_rounds", "the servers do not start");
+  }
+  RobotOptions options = Robots(database.addresses());
+  faults::Ledger home;
+  for (options.robot = 0; options.robot < kHomeJourneys; ++options.robot) {
+    options.pace = milliseconds(0);
+    const auto status = faults::RecordOne(options, faults::JourneyOf(options.robot, 0), &home);
+    if (!status.ok()) return figures->Failed("scale_rounds", status.ToString());
+  }
+  options = Robots(database.addresses());
+  GapWatch gaps;
+  faults::Ledger ledger;
+  Localizers localizers(options, &gaps);
+  faults::Fleet fleet(options, kRobots, &ledger, /*first_journey=*/1,
+                      [&gaps](int robot) { gaps.Answered(robot); });
+  int done = 0;
+  while (done < rounds && fleet.error().empty() && RunRound(done, &database, &gaps)) ++done;
+  fleet.Finish();
+  localizers.Finish();
+  if (!fleet.error().empty()) figures->Failed("scale_recording", fleet.error());
+  figures->AtLeast("scale_rounds", done, rounds);
+  figures->AtMost("scale_clients_failed", localizers.failed(), 0);
+  figures->AtLeast("scale_localised", static_cast<double>(localizers.answers()), rounds);
+  CompareWithLedger(database.url(), ledger, figures);
+  CompareWithUndisturbed(programs, database.addresses(), ledger, figures);
+  figures->AtMost("scale_gap_server_killed_s", gaps.LongestSeconds("server_killed"), 5);
+  figures->AtMost("scale_gap_server_paused_s", gaps.LongestSeconds("server_paused"), 10);
+  figures->AtMost("scale_gap_database_promoted_s", gaps.LongestSeconds("database_promoted"), 5);
+}
+
+}  // namespace homing::scale
