@@ -46,6 +46,8 @@ client/opencv       client/opencv client homing/image homing/base
 client/bag          client/bag client homing/flow homing/image homing/base
 client              client cli client/bag client/file client/simulator client/command homing/ $messages google/rpc grpc/health/
 client/command      client/command cli client/bag client/file client/picture client/simulator client server/process homing/ $messages
+client/robot        client/robot client homing/client homing/base homing/v1
+client/robot/include/homing/client homing/client
 client/bench        client/bench cli client/command client/simulator client server/process homing/ $messages
 "
 # Folders where generated code, gRPC and Protobuf may not be seen.
@@ -102,7 +104,7 @@ check_contents() {
     forbid 'OpenCV in a folder that does not use images' 'opencv2/' $(sources storage proto)
     forbid 'gRPC or Protobuf where no network may be' 'grpc|google/protobuf|\.pb\.h' $(sources $no_network)
     forbid 'SQLite outside storage' 'include *[<"](sqlite3|SQLiteCpp)' \
-      $(sources homing server proto cli client tests | grep -vE '^(tests/(storage|benchmark)|client/bag)/')
+      $(sources homing server proto cli client tests | grep -vE '^(tests/(storage|benchmark)|client/(bag|robot))/')
     forbid '.value() outside tests' '\.value\(\)' $(sources homing storage server proto cli client)
     forbid 'CHECK outside tests and main' '(^|[^_[:alnum:]])D?CHECK(_[A-Z]+)?\(|(^|[^_[:alnum:]])(abort|assert)\(' \
       $(sources homing storage server proto cli client | grep -v '/main\.cc$')
