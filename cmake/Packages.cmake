@@ -55,4 +55,13 @@ homing_package(tools homing-tools net "load generator for homing-server"
   "The command homing-bench drives many simulated robots against a server and"
   "reports throughput and latencies.")
 
+homing_package(lib libhoming libs "robot's side of Homing, shared library"
+  "Records journeys on a homing-server and localises on the way home."
+  "Observations wait in a bounded file on the robot while the link is down.")
+file(GLOB CPACK_DEBIAN_LIB_PACKAGE_CONTROL_EXTRA ${PROJECT_SOURCE_DIR}/deploy/debian/lib/*)
+
+homing_package(dev libhoming-dev libdevel "robot's side of Homing, headers"
+  "Headers, CMake package and pkg-config file of libhoming, with an example.")
+set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS "libhoming (= ${full_version})")
+
 include(CPack)

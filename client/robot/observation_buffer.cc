@@ -93,10 +93,8 @@ absl::Status ObservationBuffer::Acknowledge(std::int64_t durable, std::int64_t r
   std::erase_if(memory_, done);
   // The file has nothing to drop while all waits in memory.
   if (!file_ || file_bytes_ == 0) return absl::OkStatus();
-  HOMING_RETURN_IF_ERROR(file_->DropBefore(durable, reference));
-  if (file_end_ > durable && reference >= file_end_) return absl::OkStatus();
-  HOMING_ASSIGN_OR_RETURN(const ObservationFile::Extent extent, file_->Measure());
-  file_bytes_ = extent.bytes;
+  HOMING_ASSIGN_OR_RETURN(const std::int64_t dropped, file_->DropBefore(durable, reference));
+  file_bytes_ -= dropped;
   return absl::OkStatus();
 }
 

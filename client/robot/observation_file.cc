@@ -103,14 +103,26 @@ absl::StatusOr<std::optional<StoredObservation>> ObservationFile::Read(
   return found;
 }
 
-absl::Status ObservationFile::DropBefore(std::int64_t sequence, std::int64_t kept) {
-  return Guarded(*database_, [&] {
+absl::StatusOr<std::int64_t> ObservationFile::DropBefore(std::int64_t sequence, std::int64_t kept) {
+  std::int64_t bytes = 0;
+  HOMING_RETURN_IF_ERROR(Guarded(*database_, [&] {
+    SQLite::Transaction change(*database_);
+    SQLite::Statement size(*database_,
+                           "SELECT ifnull(sum(length(message)), 0) FROM observation "
+                           "WHERE sequence < ? AND sequence <> ?");
     SQLite::Statement erase(*database_,
                             "DELETE FROM observation WHERE sequence < ? AND sequence <> ?");
-    erase.bind(1, sequence);
-    erase.bind(2, kept);
+    for (SQLite::Statement* statement : {&size, &erase}) {
+      statement->bind(1, sequence);
+      statement->bind(2, kept);
+    }
+    size.executeStep();
+    bytes = size.getColumn(0).getInt64();
+    size.reset();
     erase.exec();
-  });
+    change.commit();
+  }));
+  return bytes;
 }
 
 absl::Status ObservationFile::Renumber(std::int64_t first, std::int64_t shift) {

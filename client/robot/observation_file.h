@@ -36,8 +36,8 @@ class ObservationFile {
   absl::Status Append(std::span<const StoredObservation> observations);
   // The first of at least `sequence`; std::nullopt: none.
   absl::StatusOr<std::optional<StoredObservation>> Read(std::int64_t sequence) const;
-  // Deletes all before `sequence`, except `kept`.
-  absl::Status DropBefore(std::int64_t sequence, std::int64_t kept);
+  // Deletes all before `sequence`, except `kept`. Returns their bytes.
+  absl::StatusOr<std::int64_t> DropBefore(std::int64_t sequence, std::int64_t kept);
   // Adds `shift` to the numbers from `first` on.
   absl::Status Renumber(std::int64_t first, std::int64_t shift);
 

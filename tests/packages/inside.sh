@@ -69,6 +69,18 @@ for program in homing homing-bench; do
   bash -c ". /usr/share/bash-completion/completions/$program; COMP_WORDS=($program --js); COMP_CWORD=1; _$(echo $program | tr - _)
     [ \"\${COMPREPLY[*]}\" = --json ]" || fail "no completion for $program"
 done
+
+# The library, from what is installed, as a robot's program finds it.
+apt install g++ cmake make pkg-config
+cp -r /usr/share/doc/libhoming-dev/examples example 2>/dev/null || cp -r /packages/cpp example
+cmake -S example -B built >cmake.log && cmake --build built >>cmake.log 2>&1 || { cat cmake.log; fail "the example does not build"; }
+# shellcheck disable=SC2046 # one word an argument
+g++ -std=c++17 -Wall -Wextra -Werror example/there_and_back.cc -o by_pkg_config $(pkg-config --cflags --libs homing-client)
+for program in built/there_and_back ./by_pkg_config; do
+  "$program" 127.0.0.1:50551 "robots/r1/journeys/$(basename $program)" out/left/*.png >steps.txt
+  [ "$(tail -n 1 steps.txt | cut -d ' ' -f 2)" -gt 10 ] || { cat steps.txt; fail "the example $program does not localise"; }
+done
+say "the example of libhoming localises: $(tail -n 1 steps.txt)"
 stop
 
 apt remove homing-server

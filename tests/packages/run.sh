@@ -46,5 +46,5 @@ fi
 mkdir "$work/root"
 tar -xf "$base" -C "$work/root"
 mkdir "$work/root/packages"
-cp -r "$work/new" "$work/old" tests/packages/inside.sh "$work/root/packages"
+cp -r "$work/new" "$work/old" tests/packages/inside.sh examples/cpp "$work/root/packages"
 sh .ci/bare_root.sh "$work/root" sh /packages/inside.sh

@@ -23,7 +23,7 @@ enum class Direction { kUnknown, kHomeward, kOutward };
 
 // A stored landmark that is similar to one seen now.
 struct Match {
-  std::string journey;
+  std::string journey = "";
   int landmark = 0;
   std::int64_t step = 0;
   Side side = Side::kUnknown;
@@ -40,36 +40,36 @@ struct Answer {
   Outcome outcome = Outcome::kUnknownPlace;
   Motion motion = Motion::kUnknown;
   // The journey and the most probable step, counted from home. Unset where there is none.
-  std::optional<std::string> journey;
-  std::optional<std::int64_t> step;
+  std::optional<std::string> journey = {};
+  std::optional<std::int64_t> step = {};
   // Of the steps first_step to last_step, inclusive.
   double probability = 0;
   std::int64_t first_step = 0;
   std::int64_t last_step = 0;
   // 0 at the far end, 1 at home.
-  std::optional<double> progress_home;
+  std::optional<double> progress_home = {};
   Direction direction = Direction::kUnknown;
   // The best match at the believed step.
-  std::optional<int> landmark;
-  std::optional<double> similarity;
+  std::optional<int> landmark = {};
+  std::optional<double> similarity = {};
   // Probability of being off every covered route.
   double unknown_probability = 0;
-  std::vector<Match> matches;
+  std::vector<Match> matches = {};
 };
 
 struct LocalizerOptions {
   // "robots/ROBOT/journeys/JOURNEY"; either name may be "-" for all.
-  std::string journey;
+  std::string journey = "";
   Travel travel = Travel::kReturn;
-  std::optional<Camera> left_camera;
-  std::optional<Camera> right_camera;
+  std::optional<Camera> left_camera = {};
+  std::optional<Camera> right_camera = {};
   // Half width of the interval, steps.
   int tolerance_steps = 10;
   int max_matches = 10;
   // Least P_T of a match.
   double threshold = 0.20;
   // Messages for the user about the link, on another thread.
-  std::function<void(const std::string&)> on_message;
+  std::function<void(const std::string&)> on_message = {};
 };
 
 // One drive. The link is restored by itself; recent observations are then sent again, so that the

@@ -43,19 +43,19 @@ struct Flow {
   // Size of the images, pixels.
   int width = 0;
   int height = 0;
-  std::vector<FlowVector> vectors;
+  std::vector<FlowVector> vectors = {};
 };
 
 // One camera: an image, or flow. A journey is recorded with one kind from its beginning to its end.
 struct View {
-  std::optional<Image> image;
-  std::optional<Flow> flow;
+  std::optional<Image> image = {};
+  std::optional<Flow> flow = {};
 };
 
 // One instant, with the left camera, the right one or both.
 struct Observation {
-  std::optional<View> left;
-  std::optional<View> right;
+  std::optional<View> left = {};
+  std::optional<View> right = {};
   // By the robot's clock, nanoseconds since 1970; 0: not known.
   std::int64_t capture_time_ns = 0;
   // Observations before this one are missing, or the robot was moved: no step spans this point.
@@ -70,7 +70,7 @@ struct Camera {
   double center_x = 0;
   double center_y = 0;
   // k1, k2, p1, p2, k3, as OpenCV has them; empty: none.
-  std::vector<double> distortion;
+  std::vector<double> distortion = {};
   // Rotation away from square to the direction of travel, clockwise seen from above, radians.
   double yaw_rad = 0;
 };

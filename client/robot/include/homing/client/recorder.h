@@ -21,7 +21,7 @@ struct Recorded {
   // Number of the observation in the journey, from 0.
   std::int64_t sequence = 0;
   // Unset: it made no step.
-  std::optional<std::int64_t> step;
+  std::optional<std::int64_t> step = {};
   Motion motion = Motion::kUnknown;
   // Number of landmarks seen.
   int landmarks = 0;
@@ -29,22 +29,22 @@ struct Recorded {
 
 struct RecorderOptions {
   // "robots/ROBOT/journeys/JOURNEY". It is created unless this writer has begun it already.
-  std::string journey;
+  std::string journey = "";
   // The same after each restart of this program. Required.
-  std::string writer;
-  std::optional<Camera> left_camera;
-  std::optional<Camera> right_camera;
+  std::string writer = "";
+  std::optional<Camera> left_camera = {};
+  std::optional<Camera> right_camera = {};
   // File of the buffer; one a journey. Empty: the buffer is in memory only.
-  std::string buffer_file;
+  std::string buffer_file = "";
   // Most bytes of observations that wait.
   std::int64_t buffer_bytes = std::int64_t{256} << 20;
   // So many of them wait in memory; the disk is written only when there are more, and when the
   // recorder is destroyed. 0: each one is written to disk at once.
   int memory_observations = 32;
   // Called in order, on another thread.
-  std::function<void(const Recorded&)> on_recorded;
+  std::function<void(const Recorded&)> on_recorded = {};
   // Messages for the user about the link, on another thread.
-  std::function<void(const std::string&)> on_message;
+  std::function<void(const std::string&)> on_message = {};
 };
 
 // Thread-safe.

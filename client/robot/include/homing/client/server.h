@@ -10,11 +10,11 @@ struct Server {
   // HOST:PORT or unix:PATH.
   std::string address = "127.0.0.1:50551";
   // PEM files. Any of them turns TLS on; without `tls_ca` the system's authorities are trusted.
-  std::string tls_ca;
-  std::string tls_cert;
-  std::string tls_key;
+  std::string tls_ca = "";
+  std::string tls_cert = "";
+  std::string tls_key = "";
   // File with a bearer token, instead of a certificate.
-  std::string token_file;
+  std::string token_file = "";
   // Send the token in plain text off this machine.
   bool insecure = false;
 };
