@@ -45,7 +45,13 @@ ObservationBuffer::ObservationBuffer(const BufferOptions& options,
 
 ObservationBuffer::~ObservationBuffer() {
   const MutexLock lock(mutex_);
-  if (file_) WriteToFile().IgnoreError();
+  if (!file_) return;
+  if (pending_count() > 0) {
+    WriteToFile().IgnoreError();
+  } else {
+    // The reference, which only this process could go on from.
+    file_->DropBefore(end_, end_).IgnoreError();
+  }
 }
 
 absl::StatusOr<std::int64_t> ObservationBuffer::Add(v1::Observation observation) {

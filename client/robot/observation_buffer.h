@@ -26,7 +26,7 @@ class ObservationBuffer : public client::ObservationStream {
   // Numbers go on behind those of `file`.
   static absl::StatusOr<std::unique_ptr<ObservationBuffer>> Create(
       const BufferOptions& options, std::optional<ObservationFile> file);
-  // Writes what waits in memory to the file.
+  // Writes what waits in memory to the file; the file is empty if nothing waits.
   ~ObservationBuffer() override;
 
   // Numbers the observation. RESOURCE_EXHAUSTED: full. Returns its number.

@@ -51,9 +51,10 @@ class RobotTest : public ::testing::Test {
     address_ = server_->address();
   }
 
-  std::unique_ptr<Recorder> Record(const std::string& writer = "writer") {
+  std::unique_ptr<Recorder> Record(const std::string& writer = "writer",
+                                   const std::string& journey = kJourney) {
     RecorderOptions options;
-    options.journey = kJourney;
+    options.journey = journey;
     options.writer = writer;
     options.buffer_file = folder_.File("buffer");
     options.memory_observations = 4;
@@ -137,6 +138,15 @@ TEST_F(RobotTest, WhatWaitsSurvivesTheProgram) {
   Add(*recorder, 20, 25);
   ExpectDone(*recorder);
   EXPECT_EQ(durable_, 25);
+}
+
+TEST_F(RobotTest, TheFileOfAFinishedJourneyCanBeUsedForAnother) {
+  for (const char* journey : {"robots/r/journeys/a", "robots/r/journeys/b"}) {
+    durable_ = 0;
+    const auto recorder = Record("writer", journey);
+    Add(*recorder, 0, 20);
+    ExpectDone(*recorder);
+  }
 }
 
 TEST_F(RobotTest, AFinishedJourneyIsNotRecordedAgain) {
