@@ -64,4 +64,15 @@ homing_package(dev libhoming-dev libdevel "robot's side of Homing, headers"
   "Headers, CMake package and pkg-config file of libhoming, with an example.")
 set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS "libhoming (= ${full_version})")
 
+if(HOMING_PYTHON)
+  homing_package(python python3-homing python "robot's side of Homing, Python package"
+    "Records journeys on a homing-server and localises on the way home, from numpy"
+    "images or optical flow, with and without asyncio. The command homing-vda5050"
+    "turns answers into fragments of VDA 5050 state messages.")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_ARCHITECTURE all)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS OFF)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3 (>= 3.9), python3-grpcio, python3-numpy, python3-protobuf")
+  file(GLOB CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA ${PROJECT_SOURCE_DIR}/deploy/debian/python/*)
+endif()
+
 include(CPack)
