@@ -99,6 +99,7 @@ v1::Camera ToMessage(const Camera& camera) {
   message.set_center_x(camera.center_x);
   message.set_center_y(camera.center_y);
   for (const double coefficient : camera.distortion) message.add_distortion(coefficient);
+  message.set_fisheye(camera.fisheye);
   message.set_yaw_rad(camera.yaw_rad);
   return message;
 }
@@ -138,7 +139,10 @@ Answer FromMessage(const v1::LocalizeResponse& message) {
   answer.direction = FromMessage(message.direction());
   if (message.has_landmark()) answer.landmark = message.landmark();
   if (message.has_similarity()) answer.similarity = message.similarity();
-  answer.unknown_probability = message.unknown_probability();
+  if (message.has_speed_ratio()) answer.speed_ratio = message.speed_ratio();
+  if (message.has_turn()) answer.turn = message.turn();
+  if (message.has_path_offset()) answer.path_offset = message.path_offset();
+  answer.on_route = message.on_route();
   for (const v1::Match& match : message.matches()) answer.matches.push_back(FromMessage(match));
   return answer;
 }

@@ -118,7 +118,8 @@ class __attribute__((visibility("hidden"))) Recorder::State {
   }
 
   absl::Status Take(const v1::RecordJourneyResponse& answer) {
-    // Flow is tracked on from the reference, which the server may ask for again.
+    // Flow is tracked from the reference, which the server may ask for again. Older servers do not
+    // name it.
     const std::int64_t reference =
         answer.has_resend_from() ? answer.resend_from() : answer.next_sequence() - 1;
     HOMING_RETURN_IF_ERROR(buffer_->Acknowledge(answer.next_sequence(), reference));

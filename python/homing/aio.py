@@ -10,7 +10,7 @@ import grpc
 
 from . import convert
 from .connection import Retry, Server, credentials, options
-from .errors import from_rpc
+from .errors import HomingError, from_rpc
 from .outbox import Outbox
 from .types import Answer, Camera, Journey, Match, Observation, Recorded, Travel, View
 from .v1 import (homing_service_pb2, homing_service_pb2_grpc, journey_service_pb2,
@@ -137,9 +137,9 @@ class AsyncClient:
                 writing: Optional[asyncio.Future] = None
                 try:
                     await call.write(config)
-                    first = await call.read()
-                    if first is grpc.aio.EOF:
-                        raise await _end_of(call)
+                    first = await _read(call)
+                    if first is None:
+                        raise HomingError("UNAVAILABLE", "the server ended the stream early")
                     reference = (first.resend_from
                                  if first.HasField("resend_from") else first.next_sequence)
                     outbox.begin(first.next_sequence, min(reference, first.next_sequence))
@@ -149,7 +149,7 @@ class AsyncClient:
                     writing = asyncio.ensure_future(_write(
                         call, sender,
                         lambda seen: journey_service_pb2.RecordJourneyRequest(observation=seen)))
-                    async for response in call:
+                    async for response in _responses(call):
                         durable = response.next_sequence
                         has_reference = response.HasField("resend_from")
                         sender.acknowledge(durable,
@@ -195,7 +195,7 @@ class AsyncClient:
                     writing = asyncio.ensure_future(_write(
                         call, sender,
                         lambda seen: homing_service_pb2.LocalizeRequest(observation=seen)))
-                    async for response in call:
+                    async for response in _responses(call):
                         if response.sequence <= reported:
                             continue
                         reported = response.sequence
@@ -262,6 +262,21 @@ async def _cancel(task: Optional[asyncio.Future]) -> None:
         await asyncio.gather(task, return_exceptions=True)
 
 
-async def _end_of(call: Any) -> grpc.RpcError:
-    return grpc.aio.AioRpcError(await call.code(), await call.initial_metadata(),
-                                await call.trailing_metadata(), await call.details())
+async def _read(call: Any) -> Optional[Any]:
+    """None: the stream ended without an error."""
+    response = await call.read()
+    if response is not grpc.aio.EOF:
+        return response
+    code = await call.code()
+    if code is grpc.StatusCode.OK:
+        return None
+    raise grpc.aio.AioRpcError(code, await call.initial_metadata(), await call.trailing_metadata(),
+                               await call.details())
+
+
+async def _responses(call: Any) -> AsyncIterator[Any]:
+    while True:
+        response = await _read(call)
+        if response is None:
+            return
+        yield response

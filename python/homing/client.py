@@ -129,7 +129,8 @@ class Client:
                live: bool = False, left_camera: Optional[Camera] = None,
                right_camera: Optional[Camera] = None, model: str = "", window: int = 32,
                finish: bool = True) -> Iterator[Recorded]:
-        """Records a journey; gives an answer for each observation once it is durable.
+        """Records a journey; gives an answer for each observation once it is durable. What became
+        durable just before the link broke has no answer.
 
         A broken link is restored. When the program runs again with the same writer, it goes on where
         it stopped: the observations that the server has are left out, or, with `live`, new ones

@@ -12,15 +12,15 @@ say() { echo "packages: $*"; }
 apt() { apt-get -q -y --no-install-recommends -o Dpkg::Use-Pty=0 "$@" >apt.log 2>&1 || { cat apt.log >&2; fail "apt-get $*"; }; }
 version() { dpkg-query -W -f '${Version}' "$1"; }
 
-# As the unit says, without systemd.
+# As the unit says, without systemd. Arguments are added.
 start() {
   user=$(sed -n 's/^User=//p' "$unit")
   command=$(sed -n 's/^ExecStart=//p' "$unit")
   # shellcheck disable=SC2086 # one word an argument
-  setpriv --reuid "$user" --regid "$user" --clear-groups env -C /var/lib/homing $command >server.log 2>&1 &
+  setpriv --reuid "$user" --regid "$user" --clear-groups env -C /var/lib/homing $command "$@" >server.log 2>&1 &
   server=$!
   for _ in 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17 18 19 20; do
-    ! homing-server healthcheck >/dev/null 2>&1 || return 0
+    ! grep -q 'listening on' server.log || return 0
     kill -0 "$server" 2>/dev/null || break
     sleep 0.2
   done
@@ -44,6 +44,7 @@ apt update
 apt install ./old/homing-server_*.deb ./old/homing_*.deb
 say "installed $(version homing-server) in $(($(date +%s) - begun)) s"
 start
+homing-server healthcheck || fail "not healthy"
 homing --quiet simulate --scene street,length=20,seed=1 --out out >/dev/null
 homing --quiet simulate --scene street,length=20,seed=1,travel=return,offset=-1 --out home >/dev/null
 homing --quiet --json record --journey "$journey" --left out/left --right out/right >record.json
@@ -72,7 +73,8 @@ done
 
 # The library, from what is installed, as a robot's program finds it.
 apt install g++ cmake make pkg-config
-cp -r /usr/share/doc/libhoming-dev/examples example 2>/dev/null || cp -r /packages/cpp example
+# This root leaves out documentation, and with it the installed examples.
+cp -r examples/cpp example
 cmake -S example -B built >cmake.log && cmake --build built >>cmake.log 2>&1 || { cat cmake.log; fail "the example does not build"; }
 # shellcheck disable=SC2046 # one word an argument
 g++ -std=c++17 -Wall -Wextra -Werror example/there_and_back.cc -o by_pkg_config $(pkg-config --cflags --libs homing-client)
@@ -81,6 +83,25 @@ for program in built/there_and_back ./by_pkg_config; do
   [ "$(tail -n 1 steps.txt | cut -d ' ' -f 2)" -gt 10 ] || { cat steps.txt; fail "the example $program does not localise"; }
 done
 say "the example of libhoming localises: $(tail -n 1 steps.txt)"
+
+python3 examples/python/there_and_back.py 127.0.0.1:50551 robots/r1/journeys/python out/left out/left same >python.txt
+grep -q ' MATCH ' python.txt || { cat python.txt; fail "the Python example does not localise"; }
+homing --quiet --json localize --journey "$journey" --travel return --left home/left --right home/right |
+  homing-vda5050 --map-id street >states.txt
+[ "$(wc -l <states.txt)" = "$(wc -l <home.json)" ] || fail "not one VDA 5050 fragment an answer"
+stop
+
+# The wheel in an environment of its own, with asyncio over TLS.
+apt install python3-venv
+homing-server certs --out pki --host 127.0.0.1 --robot r1 >/dev/null
+chown -R homing pki
+python3 -m venv --system-site-packages venv
+apt remove python3-homing
+venv/bin/pip -q install --no-index wheel/homing-*.whl
+start --tls-cert /packages/pki/server.pem --tls-key /packages/pki/server.key --tls-client-ca /packages/pki/ca.pem
+venv/bin/python examples/python/there_and_back_async.py 127.0.0.1:50551 pki r1 out/left out/left >python.txt
+grep -q 'places recognised' python.txt || { cat python.txt; fail "the asyncio example fails"; }
+say "Python: synchronous from the package, asyncio over TLS from the wheel: $(tail -n 1 python.txt | sed 's/.*\r//')"
 stop
 
 apt remove homing-server

@@ -8,7 +8,7 @@ cd "$(dirname "$0")/../.."
 build=${1:-build/release}
 
 if [ ! -x "$build/client/homing" ]; then
-  sh deploy/install.sh build client
+  sh deploy/install.sh build client test
   cmake --preset release >/dev/null
   cmake --build --preset release -j "$(nproc)" >build/release-build.log 2>&1 ||
     { tail -n 100 build/release-build.log >&2; exit 1; }
@@ -46,5 +46,7 @@ fi
 mkdir "$work/root"
 tar -xf "$base" -C "$work/root"
 mkdir "$work/root/packages"
-cp -r "$work/new" "$work/old" tests/packages/inside.sh examples/cpp "$work/root/packages"
+cp -r "$work/new" "$work/old" tests/packages/inside.sh examples "$work/root/packages"
+mkdir "$work/root/packages/wheel"
+cp "$build"/python/wheel/dist/*.whl "$work/root/packages/wheel"
 sh .ci/bare_root.sh "$work/root" sh /packages/inside.sh

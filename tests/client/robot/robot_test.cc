@@ -111,6 +111,9 @@ TEST_F(RobotTest, RecordsAndLocalises) {
   EXPECT_EQ(last.journey, kJourney);
   ASSERT_TRUE(last.step);
   EXPECT_NEAR(static_cast<double>(*last.step), 39, 2);
+  EXPECT_GE(last.on_route, last.probability);
+  ASSERT_TRUE(last.speed_ratio);
+  EXPECT_GT(*last.speed_ratio, 0);
   EXPECT_FALSE(last.matches.empty());
 }
 

@@ -49,11 +49,19 @@ struct Answer {
   // 0 at the far end, 1 at home.
   std::optional<double> progress_home = {};
   Direction direction = Direction::kUnknown;
+  // Steps of the journey an observation; negative towards home. Unset before the robot has moved.
+  std::optional<double> speed_ratio = {};
+  // Turn beyond what following the outbound path needs, to the robot's left: radians where the
+  // focal length is known, else pixels. Unset without two cameras.
+  std::optional<double> turn = {};
+  // Metres to the robot's left of the outbound path over the distance of what is seen. Unset
+  // without two cameras.
+  std::optional<double> path_offset = {};
+  // 1 - the probability of being off every covered route; at least `probability`.
+  double on_route = 0;
   // The best match at the believed step.
   std::optional<int> landmark = {};
   std::optional<double> similarity = {};
-  // Probability of being off every covered route.
-  double unknown_probability = 0;
   std::vector<Match> matches = {};
 };
 

@@ -69,8 +69,10 @@ struct Camera {
   double focal_y = 0;
   double center_x = 0;
   double center_y = 0;
-  // k1, k2, p1, p2, k3, as OpenCV has them; empty: none.
+  // k1, k2, p1, p2, k3, k4, k5, k6 as OpenCV has them: none, 4, 5 or 8; for fisheye the 4 of that
+  // model.
   std::vector<double> distortion = {};
+  bool fisheye = false;
   // Rotation away from square to the direction of travel, clockwise seen from above, radians.
   double yaw_rad = 0;
 };
