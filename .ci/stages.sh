@@ -100,6 +100,18 @@ stage_fuzz() { sh tests/fuzz/run.sh 30; }
 
 stage_tsan() { HOMING_PRESET=tsan sh tests/run.sh; }
 
+# The Debian packages of the build of the tests, in a Debian 12 of their own.
+stage_packages_deb() {
+  [ "$(id -u)" -eq 0 ] || skip "a bare root needs root"
+  command -v mmdebstrap >/dev/null || skip "mmdebstrap is not installed"
+  if [ -x "$scratch/root/homing/build/dev/client/homing" ]; then
+    in_bare_root sh /homing/tests/packages/pack.sh build/dev /homing/build/packed
+    PACKED=$scratch/root/homing/build/packed BASE_TAR=$scratch/base.tar sh tests/packages/run.sh
+  else
+    sh tests/packages/run.sh
+  fi
+}
+
 stage_image() {
   [ "$(id -u)" -eq 0 ] || skip "building images here needs root"
   command -v buildah >/dev/null || skip "buildah is not installed"

@@ -25,6 +25,7 @@ homing/journey      homing/journey $below_journey
 homing/matching     homing/matching $below_matching
 homing/profile      homing/profile $below_matching
 homing/localization homing/localization homing/matching homing/profile $below_matching
+cli                 cli
 storage             storage homing/
 storage/postgres    storage/postgres storage homing/
 proto/wire          $messages homing/
@@ -37,19 +38,21 @@ server/metrics      server/metrics server/access $kept
 server/session      server/session server/catalog $kept
 server/rpc          server/rpc server/session $gates server/catalog $kept $messages google/rpc
 server/service      server/service server/rpc server/session $gates server/catalog $kept $messages google/rpc
-server/config       server/config server/access server/admission $kept grpc/health/
+server/config       server/config cli server/access server/admission $kept grpc/health/
 server              server/ storage homing/ $messages google/rpc grpc/health/
 client/simulator    client/simulator homing/flow homing/image homing/base
 client/file         client/file
 client/picture      client/picture client/file $below_journey homing/
 client/opencv       client/opencv client homing/image homing/base
 client/bag          client/bag client homing/flow homing/image homing/base
-client              client client/bag client/file client/simulator client/command homing/ $messages google/rpc grpc/health/
-client/command      client/command client/bag client/file client/picture client/simulator client server/process homing/ $messages
-client/bench        client/bench client/command client/simulator client server/process homing/ $messages
+client              client cli client/bag client/file client/simulator client/command homing/ $messages google/rpc grpc/health/
+client/command      client/command cli client/bag client/file client/picture client/simulator client server/process homing/ $messages
+client/robot        client/robot client homing/client homing/base homing/v1
+client/robot/include/homing/client homing/client
+client/bench        client/bench cli client/command client/simulator client server/process homing/ $messages
 "
 # Folders where generated code, gRPC and Protobuf may not be seen.
-no_network='homing storage client/simulator server/base server/catalog server/access server/admission server/session
+no_network='homing storage cli client/simulator server/base server/catalog server/access server/admission server/session
   server/process'
 
 fail() { echo "layering: $*"; failed=1; }
@@ -79,7 +82,7 @@ check_directions() {
       [ -n "$ok" ] || echo "$folder may not include $included"
     done
   done
-  sources homing storage proto server client | sed 's|/[^/]*$||' | sort -u | while read -r folder; do
+  sources homing storage proto cli server client | sed 's|/[^/]*$||' | sort -u | while read -r folder; do
     echo "$rules" | grep -q "^$folder " || echo "$folder has no rule"
   done
 }
@@ -102,12 +105,12 @@ check_contents() {
     forbid 'OpenCV in a folder that does not use images' 'opencv2/' $(sources storage proto)
     forbid 'gRPC or Protobuf where no network may be' 'grpc|google/protobuf|\.pb\.h' $(sources $no_network)
     forbid 'SQLite outside storage' 'include *[<"](sqlite3|SQLiteCpp)' \
-      $(sources homing server proto client tests | grep -vE '^(tests/(storage|benchmark)|client/bag)/')
+      $(sources homing server proto cli client tests | grep -vE '^(tests/(storage|benchmark)|client/(bag|robot))/')
     forbid 'PostgreSQL outside storage' 'include *[<"]libpq' \
-      $(sources homing server proto client tests storage | grep -vE '^(storage/postgres|tests/storage)/')
-    forbid '.value() outside tests' '\.value\(\)' $(sources homing storage server proto client)
+      $(sources homing server proto cli client tests storage | grep -vE '^(storage/postgres|tests/storage)/')
+    forbid '.value() outside tests' '\.value\(\)' $(sources homing storage server proto cli client)
     forbid 'CHECK outside tests and main' '(^|[^_[:alnum:]])D?CHECK(_[A-Z]+)?\(|(^|[^_[:alnum:]])(abort|assert)\(' \
-      $(sources homing storage server proto client | grep -v '/main\.cc$')
+      $(sources homing storage server proto cli client | grep -v '/main\.cc$')
     # Shared with storage, server and client, and closed to the method.
     pure=$(sources homing | grep -vE '^homing/base/(mutex|file_text)\.h$')
     forbid 'a clock, chance, a file or a log in homing' \
@@ -121,12 +124,12 @@ check_contents() {
 }
 
 check_names() {
-  sources homing storage server proto client | grep -E '/[a-z_]*(util|common|helper|manager|misc|impl)[a-z_]*\.(h|cc)$' |
+  sources homing storage server proto cli client | grep -E '/[a-z_]*(util|common|helper|manager|misc|impl)[a-z_]*\.(h|cc)$' |
     sed 's/$/   [a name that says nothing]/'
 }
 
 check_lengths() {
-  sources homing storage server proto client tests | xargs awk -v most="$max_lines" '
+  sources homing storage server proto cli client tests | xargs awk -v most="$max_lines" '
     FNR == most + 1 { print FILENAME " has more than " most " lines" }'
 }
 
@@ -209,6 +212,7 @@ self_test() {
   plant client/picture/a.cc '#include "client/connection.h"'
   plant client/simulator/a.cc '#include "homing/journey/journey_map.h"'
   plant proto/wire/a.cc '#include "server/service/journey_archive.h"'
+  plant cli/a.cc '#include "client/connection.h"'
   plant homing/flow/string_util.cc 'int x;'
   plant tests/a.cc "$(yes 'int x;\n' | head -400 | tr -d '\n')"
   [ $planted_bad = 0 ] && echo "self-test: every planted violation is found"

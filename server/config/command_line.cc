@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "cli/documentation_flag.h"
+#include "cli/examples.h"
 #include "server/config/option_table.h"
 #include "server/config/server_options.h"
 #include "server/config/store_commands.h"
@@ -13,6 +15,31 @@ namespace homing::server {
 namespace {
 
 constexpr char kDefaultHttp[] = "127.0.0.1:8080";
+
+constexpr Example kExamples[] = {
+    {"", "homing-server --database sqlite:homing.db"},
+    {"", "homing-server --config /etc/homing/server.toml --check-config"},
+    {"healthcheck", "homing-server healthcheck --server 127.0.0.1:50551"},
+    {"doctor", "homing-server doctor homing.db --salvage salvaged.db"},
+    {"backup", "homing-server backup --database sqlite:homing.db copy.db"},
+    {"certs", "homing-server certs --out pki --host base.example.org --robot r1 --operator anna"},
+    {"token", "homing-server token robots/r1 --tokens tokens --out r1.token"},
+};
+
+ManPage Page() {
+  ManPage page;
+  page.section = 8;
+  page.version = "homing-server " HOMING_VERSION;
+  page.exit_status = {"0: The server ended after SIGTERM or SIGINT, or the work is done.",
+                      "1: The work failed.",
+                      "2: The command line or the file of options is wrong."};
+  page.files = {
+      "/etc/homing/server.toml: Options of the service; the keys are the names of the flags.",
+      "/etc/default/homing-server: Variables of the service.",
+      "/var/lib/homing/homing.db: The database of the service."};
+  page.see_also = {"homing(1)"};
+  return page;
+}
 
 CLI::App* AddCertsCommand(CLI::App* app, CertificateOrder* order) {
   CLI::App* certs = app->add_subcommand(
@@ -64,7 +91,7 @@ void ApplyFile(const std::string& path, CLI::App* app) {
     const std::string name(key.str());
     CLI::Option* option = app->get_option_no_throw("--" + name);
     if (option == nullptr || name == "config" || name == "help" || name == "version" ||
-        name == "check-config") {
+        name == "check-config" || name == "documentation") {
       std::ostringstream message;
       message << path << ": unknown key \"" << name << '"';
       throw CLI::ValidationError("config", message.str());
@@ -123,6 +150,8 @@ ServerCommand ParseCommandLine(int argc, const char* const* argv) {
   const StoreCommands store(&app, &command);
   CLI::App* certs = AddCertsCommand(&app, &command.certificates);
   CLI::App* token = AddTokenCommand(&app, &command.token);
+  AddExamples(app, kExamples);
+  AddDocumentationFlag(app, Page());
   try {
     app.parse(argc, argv);
     if (!config.empty()) {

@@ -1,0 +1,1 @@
+// CMake wants a source for a library whose contents come from another one.

@@ -1,0 +1,282 @@
+"""The client for asyncio; the methods are those of Client."""
+
+from __future__ import annotations
+
+import asyncio
+from typing import (Any, AsyncIterable, AsyncIterator, Awaitable, Callable, Iterable, List, Optional,
+                    Union)
+
+import grpc
+
+from . import convert
+from .connection import Retry, Server, credentials, options
+from .errors import HomingError, from_rpc
+from .outbox import Outbox
+from .types import Answer, Camera, Journey, Match, Observation, Recorded, Travel, View
+from .v1 import (homing_service_pb2, homing_service_pb2_grpc, journey_service_pb2,
+                 journey_service_pb2_grpc)
+
+Seen = Union[Observation, View]
+Source = Union[Iterable[Seen], AsyncIterable[Seen]]
+
+
+async def _each(source: Source) -> AsyncIterator[Seen]:
+    if hasattr(source, "__aiter__"):
+        async for seen in source:  # type: ignore[union-attr]
+            yield seen
+    else:
+        for seen in source:  # type: ignore[union-attr]
+            yield seen
+            await asyncio.sleep(0)
+
+
+class _Sender:
+    """The outbox and the task that fills it: a broken link does not interrupt the source."""
+
+    def __init__(self, source: Source, outbox: Outbox, room: int):
+        self._outbox = outbox
+        # At most so many observations were taken from the source and are not answered.
+        self._room = asyncio.Semaphore(room)
+        self._changed = asyncio.Event()
+        self._ended = False
+        self.error: Optional[BaseException] = None
+        self._task = asyncio.ensure_future(self._fill(source))
+
+    async def _fill(self, source: Source) -> None:
+        try:
+            async for seen in _each(source):
+                message = convert.observation(seen)
+                await self._room.acquire()
+                self._outbox.add(message)
+                self._changed.set()
+        except Exception as error:  # The caller's own: given back by the reading side.
+            self.error = error
+        self._ended = True
+        self._changed.set()
+
+    def begin(self, durable: int, reference: int) -> None:
+        self._outbox.begin(durable, reference)
+
+    def acknowledge(self, durable: int, reference: int) -> None:
+        self._outbox.acknowledge(durable, reference)
+
+    def answered(self) -> None:
+        self._room.release()
+
+    async def take(self) -> Optional[Any]:
+        while True:
+            kept = self._outbox.next_kept()
+            if kept is not None or self._ended:
+                return kept
+            self._changed.clear()
+            await self._changed.wait()
+
+    async def close(self) -> None:
+        self._task.cancel()
+        await asyncio.gather(self._task, return_exceptions=True)
+
+
+async def _write(call: Any, sender: _Sender, wrap: Callable[[Any], Any]) -> None:
+    try:
+        while True:
+            observation = await sender.take()
+            if observation is None:
+                await call.done_writing()
+                return
+            await call.write(wrap(observation))
+    except (grpc.RpcError, asyncio.InvalidStateError):
+        pass  # The reading side gets the same error.
+
+
+class AsyncClient:
+    """For one event loop."""
+
+    def __init__(self, server: Union[Server, str] = Server()):
+        self._server = Server(address=server) if isinstance(server, str) else server
+        secret = credentials(self._server)
+        self._channel = (grpc.aio.insecure_channel(self._server.address, options())
+                         if secret is None else
+                         grpc.aio.secure_channel(self._server.address, secret, options()))
+        self._journeys = journey_service_pb2_grpc.JourneyServiceStub(self._channel)
+        self._homing = homing_service_pb2_grpc.HomingServiceStub(self._channel)
+
+    async def __aenter__(self) -> "AsyncClient":
+        return self
+
+    async def __aexit__(self, *unused: Any) -> None:
+        await self.close()
+
+    async def close(self) -> None:
+        await self._channel.close()
+
+    async def _call(self, method: Callable[..., Awaitable[Any]], request: Any) -> Any:
+        retry = Retry(self._server)
+        while True:
+            try:
+                return await method(request, timeout=60)
+            except grpc.RpcError as error:
+                await _wait(retry, error)
+
+    async def record(self, journey: str, observations: Source, *, writer: str = "python",
+                     live: bool = False, left_camera: Optional[Camera] = None,
+                     right_camera: Optional[Camera] = None, model: str = "", window: int = 32,
+                     finish: bool = True) -> AsyncIterator[Recorded]:
+        """As Client.record."""
+        await self._call(self._journeys.CreateJourney,
+                         convert.create_request(journey, writer, left_camera, right_camera, model))
+        config = journey_service_pb2.RecordJourneyRequest()
+        config.config.journey = journey
+        config.config.writer_id = writer
+        retry = Retry(self._server)
+        sender: Optional[_Sender] = None
+        outbox = Outbox(live)
+        reported = -1
+        try:
+            while True:
+                call = self._journeys.RecordJourney()
+                writing: Optional[asyncio.Future] = None
+                try:
+                    await call.write(config)
+                    first = await _read(call)
+                    if first is None:
+                        raise HomingError("UNAVAILABLE", "the server ended the stream early")
+                    reference = (first.resend_from
+                                 if first.HasField("resend_from") else first.next_sequence)
+                    outbox.begin(first.next_sequence, min(reference, first.next_sequence))
+                    reported = max(reported, first.next_sequence - 1)
+                    if sender is None:
+                        sender = _Sender(observations, outbox, window + first.next_sequence)
+                    writing = asyncio.ensure_future(_write(
+                        call, sender,
+                        lambda seen: journey_service_pb2.RecordJourneyRequest(observation=seen)))
+                    async for response in _responses(call):
+                        durable = response.next_sequence
+                        has_reference = response.HasField("resend_from")
+                        sender.acknowledge(durable,
+                                           response.resend_from if has_reference else durable)
+                        if response.sequence > reported:
+                            reported = response.sequence
+                            sender.answered()
+                            retry.progress()
+                            yield convert.recorded(response)
+                    break
+                except grpc.RpcError as error:
+                    await _wait(retry, error)
+                finally:
+                    call.cancel()
+                    await _cancel(writing)
+        finally:
+            if sender is not None:
+                await sender.close()
+        if sender.error is not None:
+            raise sender.error
+        if finish:
+            await self.finish(journey, writer=writer)
+
+    async def localize(self, journey: str, observations: Source, *,
+                       travel: Travel = Travel.RETURN, left_camera: Optional[Camera] = None,
+                       right_camera: Optional[Camera] = None, tolerance_steps: int = 10,
+                       max_matches: int = 10, threshold: float = 0.2,
+                       window: int = 32) -> AsyncIterator[Answer]:
+        """As Client.localize."""
+        config = convert.localize_config(journey, travel, left_camera, right_camera,
+                                         tolerance_steps, max_matches, threshold)
+        outbox = Outbox()
+        outbox.begin(0, 0)
+        sender = _Sender(observations, outbox, window)
+        retry = Retry(self._server)
+        reported = -1
+        try:
+            while True:
+                call = self._homing.Localize()
+                writing: Optional[asyncio.Future] = None
+                try:
+                    await call.write(homing_service_pb2.LocalizeRequest(config=config))
+                    writing = asyncio.ensure_future(_write(
+                        call, sender,
+                        lambda seen: homing_service_pb2.LocalizeRequest(observation=seen)))
+                    async for response in _responses(call):
+                        if response.sequence <= reported:
+                            continue
+                        reported = response.sequence
+                        sender.acknowledge(reported + 1, reported)
+                        sender.answered()
+                        retry.progress()
+                        last = convert.prior(response)
+                        if last is not None:
+                            config.prior.CopyFrom(last)
+                        yield convert.answer(response)
+                    break
+                except grpc.RpcError as error:
+                    await _wait(retry, error)
+                    # The last one answered is sent again: flow goes on from it.
+                    sender.begin(reported + 1, max(reported, 0))
+                finally:
+                    call.cancel()
+                    await _cancel(writing)
+        finally:
+            await sender.close()
+        if sender.error is not None:
+            raise sender.error
+
+    async def match(self, journey: str, first: View, second: View, *, side: str = "left",
+                    travel: Travel = Travel.RETURN, max_matches: int = 10,
+                    threshold: float = 0.2) -> List[Match]:
+        request = convert.match_request(journey, first, second, side, travel, max_matches, threshold)
+        found = await self._call(self._homing.MatchLandmarks, request)
+        return [convert.match(one) for one in found.matches]
+
+    async def journeys(self, parent: str = "robots/-") -> AsyncIterator[Journey]:
+        request = journey_service_pb2.ListJourneysRequest(parent=parent, page_size=1000)
+        while True:
+            page = await self._call(self._journeys.ListJourneys, request)
+            for found in page.journeys:
+                yield convert.journey(found)
+            request.page_token = page.next_page_token
+            if not request.page_token:
+                return
+
+    async def get(self, journey: str) -> Journey:
+        request = journey_service_pb2.GetJourneyRequest(name=journey)
+        return convert.journey(await self._call(self._journeys.GetJourney, request))
+
+    async def finish(self, journey: str, *, writer: str = "") -> Journey:
+        request = journey_service_pb2.FinishJourneyRequest(name=journey, writer_id=writer)
+        return convert.journey((await self._call(self._journeys.FinishJourney, request)).journey)
+
+    async def delete(self, journey: str) -> None:
+        await self._call(self._journeys.DeleteJourney,
+                         journey_service_pb2.DeleteJourneyRequest(name=journey))
+
+
+async def _wait(retry: Retry, error: grpc.RpcError) -> None:
+    wait = retry.wait_after(error)
+    if wait is None:
+        raise from_rpc(error) from None
+    await asyncio.sleep(wait)
+
+
+async def _cancel(task: Optional[asyncio.Future]) -> None:
+    if task is not None:
+        task.cancel()
+        await asyncio.gather(task, return_exceptions=True)
+
+
+async def _read(call: Any) -> Optional[Any]:
+    """None: the stream ended without an error."""
+    response = await call.read()
+    if response is not grpc.aio.EOF:
+        return response
+    code = await call.code()
+    if code is grpc.StatusCode.OK:
+        return None
+    raise grpc.aio.AioRpcError(code, await call.initial_metadata(), await call.trailing_metadata(),
+                               await call.details())
+
+
+async def _responses(call: Any) -> AsyncIterator[Any]:
+    while True:
+        response = await _read(call)
+        if response is None:
+            return
+        yield response

@@ -1,0 +1,87 @@
+"""The channel to one server, and how long a broken link is tried again."""
+
+from __future__ import annotations
+
+import dataclasses
+import random
+import time
+from typing import Optional, Sequence, Tuple
+
+import grpc
+
+from .errors import HomingError, is_correctable, is_retriable
+
+_MAX_MESSAGE = 256 << 20
+_MAX_CORRECTIONS = 3
+
+
+@dataclasses.dataclass(frozen=True)
+class Server:
+    address: str = "127.0.0.1:50551"
+    # PEM files. Any of them turns TLS on; without tls_ca the system's authorities are trusted.
+    tls_ca: Optional[str] = None
+    tls_cert: Optional[str] = None
+    tls_key: Optional[str] = None
+    # File with a bearer token, instead of a certificate. It is sent over TLS only.
+    token_file: Optional[str] = None
+    # How long a broken link is tried again since it last worked, seconds.
+    retry_for: float = 60.0
+
+
+def _read(path: Optional[str]) -> Optional[bytes]:
+    if path is None:
+        return None
+    with open(path, "rb") as file:
+        return file.read()
+
+
+def options() -> Sequence[Tuple[str, int]]:
+    return [("grpc.max_receive_message_length", _MAX_MESSAGE),
+            ("grpc.max_send_message_length", _MAX_MESSAGE),
+            ("grpc.max_reconnect_backoff_ms", 1000), ("grpc.initial_reconnect_backoff_ms", 100)]
+
+
+def credentials(server: Server) -> Optional[grpc.ChannelCredentials]:
+    """None: plain text."""
+    tls = server.tls_ca or server.tls_cert or server.tls_key
+    if not tls:
+        if server.token_file:
+            raise HomingError("INVALID_ARGUMENT", "a token is sent over TLS only: give tls_ca")
+        return None
+    if bool(server.tls_cert) != bool(server.tls_key):
+        raise HomingError("INVALID_ARGUMENT", "tls_cert and tls_key belong together")
+    channel = grpc.ssl_channel_credentials(_read(server.tls_ca), _read(server.tls_key),
+                                           _read(server.tls_cert))
+    token = _read(server.token_file)
+    if token is None:
+        return channel
+    return grpc.composite_channel_credentials(
+        channel, grpc.access_token_call_credentials(token.decode().strip()))
+
+
+class Retry:
+    """Decides after each error whether to try again, and how long to wait before."""
+
+    def __init__(self, server: Server):
+        self._retry_for = server.retry_for
+        self.progress()
+
+    def progress(self) -> None:
+        """The link works."""
+        self._last = time.monotonic()
+        self._wait = 0.1
+        self._corrections = 0
+
+    def wait_after(self, error: grpc.RpcError) -> Optional[float]:
+        """Seconds to wait; None: give up."""
+        if is_correctable(error):
+            self._corrections += 1
+            if self._corrections > _MAX_CORRECTIONS:
+                return None
+        elif not is_retriable(error):
+            return None
+        if time.monotonic() - self._last >= self._retry_for:
+            return None
+        wait = self._wait * random.uniform(0.7, 1.0)
+        self._wait = min(0.7, self._wait * 1.7)
+        return wait

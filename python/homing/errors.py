@@ -1,0 +1,37 @@
+"""Errors of the server and of the way to it."""
+
+from __future__ import annotations
+
+import grpc
+
+_RETRY_INFO = b"google.rpc.RetryInfo"
+
+
+class HomingError(Exception):
+    """code says what to do ("NOT_FOUND"), message names the field, the value and the limit."""
+
+    def __init__(self, code: str, message: str):
+        super().__init__(f"{message} ({code})")
+        self.code = code
+        self.message = message
+
+
+def from_rpc(error: grpc.RpcError) -> HomingError:
+    return HomingError(error.code().name, error.details() or "")
+
+
+def is_retriable(error: grpc.RpcError) -> bool:
+    """UNAVAILABLE, or another code to which the server added when to try again."""
+    code = error.code()
+    if code == grpc.StatusCode.UNAVAILABLE:
+        return True
+    if code not in (grpc.StatusCode.RESOURCE_EXHAUSTED, grpc.StatusCode.CANCELLED):
+        return False
+    trailers = error.trailing_metadata() or ()
+    return any(key == "grpc-status-details-bin" and _RETRY_INFO in value
+               for key, value in trailers)
+
+
+def is_correctable(error: grpc.RpcError) -> bool:
+    """The server expects another observation, and says which when asked again."""
+    return error.code() == grpc.StatusCode.OUT_OF_RANGE
