@@ -39,11 +39,13 @@ server/service      server/service server/rpc server/session $gates server/catal
 server/config       server/config server/access server/admission $kept grpc/health/
 server              server/ storage homing/ $messages google/rpc grpc/health/
 client/simulator    client/simulator homing/flow homing/image homing/base
+client/pilot        client/pilot
+client/drive        client/drive client/pilot client/simulator homing/flow homing/image homing/base
 client/picture      client/picture $below_journey
 client/opencv       client/opencv client homing/image homing/base
 client/bag          client/bag client homing/flow homing/image homing/base
-client              client client/bag client/simulator client/command homing/ $messages google/rpc grpc/health/
-client/command      client/command client/bag client/picture client/simulator client server/process homing/ $messages
+client              client client/pilot client/bag client/simulator client/command homing/ $messages google/rpc grpc/health/
+client/command      client/command client/drive client/pilot client/bag client/picture client/simulator client server/process homing/ $messages
 client/bench        client/bench client/command client/simulator client server/process homing/ $messages
 "
 # Folders where generated code, gRPC and Protobuf may not be seen.

@@ -8,6 +8,7 @@
 
 #include "client/simulator/seeded_random.h"
 #include "client/simulator/texture_pool.h"
+#include "client/simulator/view.h"
 #include "homing/flow/motion.h"
 
 namespace homing::client {

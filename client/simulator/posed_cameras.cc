@@ -6,6 +6,7 @@
 #include "client/simulator/scene_simulator.h"
 #include "client/simulator/simulation_spec.h"
 #include "client/simulator/true_flow.h"
+#include "client/simulator/view.h"
 #include "client/simulator/worlds.h"
 #include "homing/base/status_macros.h"
 

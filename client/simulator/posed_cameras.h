@@ -13,9 +13,10 @@
 #include "client/simulator/scene.h"
 #include "client/simulator/sensor.h"
 #include "client/simulator/simulator.h"
-#include "client/simulator/view.h"
 
 namespace homing::client {
+
+class View;
 
 // Here a pose's heading is where the ROBOT heads. The same spec, pose and frame give the same
 // bytes. Thread-compatible: all but Create is const.
