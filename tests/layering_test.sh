@@ -42,11 +42,13 @@ server/config       server/config cli server/access server/admission $kept grpc/
 server              server/ storage homing/ $messages google/rpc grpc/health/
 client/simulator    client/simulator homing/flow homing/image homing/base
 client/file         client/file
+client/pilot        client/pilot
+client/drive        client/drive client/pilot client/simulator homing/flow homing/image homing/base
 client/picture      client/picture client/file $below_journey homing/
 client/opencv       client/opencv client homing/image homing/base
 client/bag          client/bag client homing/flow homing/image homing/base
-client              client cli client/bag client/file client/simulator client/command homing/ $messages google/rpc grpc/health/
-client/command      client/command cli client/bag client/file client/picture client/simulator client server/process homing/ $messages
+client              client cli client/pilot client/bag client/file client/simulator client/command homing/ $messages google/rpc grpc/health/
+client/command      client/command cli client/drive client/pilot client/bag client/file client/picture client/simulator client server/process homing/ $messages
 client/robot        client/robot client homing/client homing/base homing/v1
 client/robot/include/homing/client homing/client
 client/bench        client/bench cli client/command client/simulator client server/process homing/ $messages

@@ -39,6 +39,9 @@ constexpr std::array kExamples = {
     Example{"draw", "homing draw --journey robots/r1/journeys/monday --out monday.png"},
     Example{"draw", "homing draw --left 0041.png,0042.png --histogram --out flow.svg"},
     Example{"backup", "homing backup copy.db"},
+    Example{
+        "drive",
+        "homing drive --scene street,length=60 --journey robots/sim/journeys/street --out drive"},
     Example{"evaluate",
             "homing evaluate --answers home.json --truth-out out/truth.csv --truth-home "
             "home/truth.csv --out figures"},
@@ -70,6 +73,7 @@ void AddCommandLine(CLI::App& app, Session& session, const char* version) {
   AddSimulateCommand(app, session);
   AddDrawCommand(app, session);
   AddBackupCommand(app, session);
+  AddDriveCommand(app, session);
   AddEvaluateCommand(app, session);
   AddExamples(app, kExamples);
   AddDocumentationFlag(app, Page(version));

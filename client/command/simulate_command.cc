@@ -118,7 +118,7 @@ void AddSimulateCommand(CLI::App& app, Session& session) {
           "--scene", flags->scene,
           "street or landmarks, then [,key=value...]: seed, length, fps, speed, offset, "
           "light, noise, remove, wobble, stop, vary, extra, yaw, yaw_wobble, rough, repeat, "
-          "drop, drop_run, travel, drive")
+          "drop, drop_run, corner, travel, drive")
       ->required()
       ->check([](const std::string& text) {
         return std::string(ParseSimulationSpec(SceneText(text)).status().message());

@@ -16,8 +16,14 @@ Route::Route(double length_m, const RouteBend& bend) : length_m_(length_m), bend
 }
 
 double Route::Heading(double route_m) const {
-  return bend_.bend_rad *
-         std::sin(2 * std::numbers::pi * route_m / bend_.period_m + bend_.phase_rad);
+  double heading =
+      bend_.bend_rad * std::sin(2 * std::numbers::pi * route_m / bend_.period_m + bend_.phase_rad);
+  double corner = bend_.corner_rad;
+  for (const double middle_m : bend_.corners_m) {
+    heading += corner * std::clamp((route_m - middle_m) / RouteBend::kCornerM + 0.5, 0.0, 1.0);
+    corner = -corner;
+  }
+  return heading;
 }
 
 // Simpson's rule.
@@ -34,6 +40,20 @@ Pose Route::At(double route_m) const {
   const auto node = static_cast<std::size_t>(bounded + kMarginM);
   const double start = static_cast<double>(node) - kMarginM;
   return {Advanced(nodes_[node], start, bounded - start), Heading(bounded)};
+}
+
+double Route::Nearest(const Vector2& point) const {
+  const auto nearest = std::ranges::min_element(nodes_, {}, [&point](const Vector2& node) {
+    const Vector2 away = point - node;
+    return away.dot(away);
+  });
+  double route_m = static_cast<double>(nearest - nodes_.begin()) - kMarginM;
+  // The line is nearly straight: each time the rest of the way along it.
+  for (int i = 0; i < 4; ++i) {
+    const Pose at = At(route_m);
+    route_m += (point - at.position).dot(at.Along());
+  }
+  return std::clamp(route_m, -kMarginM, length_m_ + kMarginM);
 }
 
 }  // namespace homing::client

@@ -2,6 +2,7 @@
 #ifndef CLIENT_SIMULATOR_ROUTE_H_
 #define CLIENT_SIMULATOR_ROUTE_H_
 
+#include <array>
 #include <vector>
 
 #include "client/simulator/geometry.h"
@@ -9,10 +10,16 @@
 namespace homing::client {
 
 // Straight, or bending gently to either side in turn: heading = bend sin(2 pi s / period + phase).
+// Besides, corners may be in it.
 struct RouteBend {
   double bend_rad = 0;
   double period_m = 100;
   double phase_rad = 0;
+  // One turns the line by this to the left, the other back, in kCornerM each.
+  double corner_rad = 0;
+  std::array<double, 2> corners_m{};
+
+  static constexpr double kCornerM = 8;
 };
 
 class Route {
@@ -22,6 +29,8 @@ class Route {
   // The line's point and direction `route_m` from home; also a little beyond both ends.
   Pose At(double route_m) const;
   double length_m() const { return length_m_; }
+  // Where along the line, and its margins, the nearest point lies.
+  double Nearest(const Vector2& point) const;
 
   // The line is known this far beyond its ends.
   static constexpr double kMarginM = 100;

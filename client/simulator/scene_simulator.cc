@@ -95,11 +95,22 @@ cv::Mat SceneSimulator::TrueFlow(std::int64_t index, Side camera) const {
                      ViewAt(schedule_.TakenAt(index + 1), camera));
 }
 
+Route MakeRoute(const SimulationSpec& spec) {
+  RouteBend bend = BendOf(spec.seed);
+  bend.corner_rad = spec.corner_deg * kDegree;
+  bend.corners_m = {spec.length_m / 3, 2 * spec.length_m / 3};
+  return {spec.length_m + spec.extra_m, bend};
+}
+
+Scene MakeScene(const SimulationSpec& spec, const Route& route) {
+  return spec.scene == "street" ? MakeStreetScene(route, spec.seed, spec.remove)
+                                : MakeLandmarkScene(route, spec.seed, spec.remove);
+}
+
 absl::StatusOr<std::unique_ptr<Simulator>> Simulator::Create(const SimulationSpec& spec) {
   HOMING_RETURN_IF_ERROR(Validate(spec));
-  Route route(spec.length_m + spec.extra_m, BendOf(spec.seed));
-  Scene scene = spec.scene == "street" ? MakeStreetScene(route, spec.seed, spec.remove)
-                                       : MakeLandmarkScene(route, spec.seed, spec.remove);
+  Route route = MakeRoute(spec);
+  Scene scene = MakeScene(spec, route);
   return std::make_unique<SceneSimulator>(spec, std::move(route), std::move(scene));
 }
 

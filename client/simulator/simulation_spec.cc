@@ -27,7 +27,7 @@ struct NumberKey {
   bool is_optional = false;
   bool is_whole = false;
 };
-constexpr std::array<NumberKey, 17> kNumberKeys = {{
+constexpr std::array<NumberKey, 18> kNumberKeys = {{
     {"length", &SimulationSpec::length_m, 1, 100000, "metres in [1, 100000]"},
     {"fps", &SimulationSpec::fps, 0.1, 240, "frames a second in [0.1, 240]"},
     {"speed", &SimulationSpec::speed_kmh, 0.1, 100, "km/h in [0.1, 100]"},
@@ -46,6 +46,7 @@ constexpr std::array<NumberKey, 17> kNumberKeys = {{
     {"drop", &SimulationSpec::drop, 0, 0.95, "a share in [0, 0.95]", true},
     {"drop_run", &SimulationSpec::drop_run, 1, 1000, "0 or a whole number in [1, 1000]", true,
      true},
+    {"corner", &SimulationSpec::corner_deg, -60, 60, "degrees in [-60, 60]", true},
 }};
 
 absl::Status BadValue(const std::string& key, const std::string& value, const std::string& limit) {
@@ -105,7 +106,7 @@ absl::Status ParseKey(const std::string& key, const std::string& value, Simulati
       absl::StrCat("unknown simulation key \"", key, "\" with value \"", value,
                    "\"; the keys are seed, length, fps, speed, offset, light, noise, remove, "
                    "wobble, stop, vary, extra, yaw, yaw_wobble, rough, repeat, drop, drop_run, "
-                   "travel, drive"));
+                   "corner, travel, drive"));
 }
 
 absl::Status CheckScene(const std::string& scene) {

@@ -60,6 +60,9 @@ struct SimulationSpec {
   // In every 5 times as many frames one of the cameras gives none for so many in a row; 0: none.
   // [1, 1000].
   double drop_run = 0;
+  // The route turns by so many degrees to one side after a third of its length, and back after two
+  // thirds. [-60, 60].
+  double corner_deg = 0;
   // True: from the far end home, heading the other way.
   bool travel_return = false;
   // Seed of noise and light; 0: made from the other keys, so that two drives differ.

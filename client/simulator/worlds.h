@@ -7,11 +7,16 @@
 
 #include "client/simulator/route.h"
 #include "client/simulator/scene.h"
+#include "client/simulator/simulator.h"
 
 namespace homing::client {
 
 // A route's bend, by seed: up to 0.08 rad to either side.
 RouteBend BendOf(std::uint64_t seed);
+
+// REQUIRES: Validate(spec).ok().
+Route MakeRoute(const SimulationSpec& spec);
+Scene MakeScene(const SimulationSpec& spec, const Route& route);
 
 // Spheres, towers, parallelograms and hills 3 to 15 m to either side, with gaps. `remove` is the
 // share of landmarks left out, [0, 1]; a larger share leaves out the same ones and more.

@@ -4,13 +4,12 @@
 #include "homing/base/range_check.h"
 #include "homing/base/status_macros.h"
 #include "homing/flow/motion.h"
+#include "homing/flow/rotation_fit.h"
 #include "homing/journey/camera_pair.h"
 
 namespace homing {
 namespace {
 
-// Opposite sideways flows that differ by less say nothing of the motion, pixels.
-constexpr double kLeastAdvancePx = 1;
 constexpr std::array<const char*, 2> kCameraNames{"left", "right"};
 
 absl::Status CheckSize(std::size_t index, const Camera& camera, const Camera& recorded) {
@@ -21,6 +20,17 @@ absl::Status CheckSize(std::size_t index, const Camera& camera, const Camera& re
   return absl::FailedPreconditionError(absl::StrCat(
       kCameraNames[index], " image is ", camera.width, "x", camera.height, ", must be ",
       recorded.width, "x", recorded.height, " as recorded on the side of the route that it sees"));
+}
+
+// Rad to the left; nothing unless both cameras see it.
+std::optional<double> TurnOnSpot(const ObservedFlow& flow, const std::array<Camera, 2>& cameras) {
+  double turn = 0;
+  for (std::size_t camera = 0; camera < 2; ++camera) {
+    const auto& field = flow.fields[camera];
+    if (!field || field->vectors.size() < kMinVectors) return std::nullopt;
+    turn += 0.5 * FitRotation(*field, cameras[camera]).pan;
+  }
+  return turn;
 }
 
 }  // namespace
@@ -50,7 +60,10 @@ absl::Status CheckCompatible(const LocalizerOptions& query, const JourneySetting
 }
 
 Localizer::Localizer(const LocalizerOptions& options, const DecodeLimits& limits)
-    : options_(options), flow_(options.flow, limits), filter_(options.position) {}
+    : options_(options),
+      flow_(options.flow, limits),
+      filter_(options.position),
+      path_(options.travel, options.cameras) {}
 
 absl::StatusOr<Localization> Localizer::Localize(const Observation& observation,
                                                  std::span<const JourneyRef> journeys) {
@@ -66,6 +79,7 @@ absl::StatusOr<Localization> Localizer::Localize(const Observation& observation,
     same.frame = observation.frame.value_or(observation.sequence);
     same.motion = Motion::kStanding;
     same.has_flow = has_flow;
+    same.turn.reset();
     return same;
   }
   Localization result;
@@ -80,13 +94,10 @@ absl::StatusOr<Localization> Localizer::Localize(const Observation& observation,
   // III, equations (13) to (15), over all stored landmarks.
   result.matches = matcher_.Find(journeys, seen, options_.match);
   // V, future work: where the sequence of what was seen places the robot.
-  const SeenProfiles profiles = MakeRouteProfiles(flow, result.motion);
+  const ObservedFlow straight = FollowPath(journeys, flow, result.motion);
+  const SeenProfiles profiles = MakeRouteProfiles(straight, result.motion);
   result.position = filter_.Update(journeys, result.motion, seen, profiles);
-  result.turn = TurnOf(journeys, profiles, result.position);
-  // The filter's left is the route's; a robot that has turned round has it on its right.
-  if (options_.travel == Travel::kReturn && result.position.path_offset) {
-    result.position.path_offset = -*result.position.path_offset;
-  }
+  TellPose(journeys, flow, result);
   TellLandmark(journeys, seen, result);
   last_ = result;
   last_->matches.clear();
@@ -101,32 +112,34 @@ absl::Status Localizer::Start(std::span<const JourneyRef> journeys, const Positi
   return filter_.Start(journeys, of_route);
 }
 
-// METHOD 7: A and B are the sideways flows on the left and the right of the route. The motion along
-// the path moves them against each other, a turn moves both alike.
-std::optional<double> Localizer::TurnOf(std::span<const JourneyRef> journeys,
-                                        const SeenProfiles& seen, const Position& position) const {
-  if (!position.step || !seen[0] || !seen[1]) {
-    return std::nullopt;
+ObservedFlow Localizer::FollowPath(std::span<const JourneyRef> journeys, const ObservedFlow& flow,
+                                   Motion motion) {
+  path_.Begin(options_.cameras);
+  if (motion != Motion::kMoving || !last_ || !last_->position.step) return flow;
+  const JourneyMap& map = *journeys[static_cast<std::size_t>(last_->position.journey)].map;
+  return path_.Predict(map, *last_->position.step, flow) ? path_.Straighten(flow) : flow;
+}
+
+void Localizer::TellPose(std::span<const JourneyRef> journeys, const ObservedFlow& flow,
+                         Localization& result) {
+  result.position.path_offset.reset();
+  if (result.motion == Motion::kTurning) {
+    result.turn = TurnOnSpot(flow, options_.cameras);
+    if (result.turn) path_.Turn(*result.turn);
+    // Where a robot headed that has not driven yet is not known: its turns add up behind.
+    told_heading_ = path_.is_started() ? told_heading_ + result.turn.value_or(0) : 0;
+  } else if (!result.position.step) {
+    path_.Forget();
+  } else if (path_.has_motion()) {
+    const JourneyMap& map = *journeys[static_cast<std::size_t>(result.position.journey)].map;
+    path_.Correct(map, *result.position.step, flow);
+    result.turn = path_.pose().heading - told_heading_;
+    told_heading_ = path_.pose().heading;
+    if (path_.is_started()) result.position.path_offset = path_.pose().offset;
   }
-  const JourneyMap& map = *journeys[static_cast<std::size_t>(position.journey)].map;
-  std::array<double, 2> now{}, then{};
-  for (const Side side : {Side::kLeft, Side::kRight}) {
-    const auto at = static_cast<std::size_t>(side);
-    const auto stored = map.profiles(side);
-    if (stored.empty() || !seen[at]->odometer().has_value()) return std::nullopt;
-    const OdometerReading& of_step = stored[static_cast<std::size_t>(*position.step)].odometer;
-    if (!of_step.has_value()) return std::nullopt;
-    now[at] = seen[at]->odometer().median_x / OdometerReading::kSignedPerPx;
-    then[at] = of_step.median_x / OdometerReading::kSignedPerPx;
+  if (result.turn && !options_.cameras[0].intrinsics) {
+    *result.turn *= PathPoseFilter::UsualFocal(options_.cameras[0].width);
   }
-  const double advance = then[1] - then[0];
-  if (std::abs(advance) < kLeastAdvancePx) {
-    return std::nullopt;
-  }
-  const double ratio = (now[1] - now[0]) / advance;
-  const double pixels = (now[0] + now[1] - ratio * (then[0] + then[1])) / 2;
-  const auto& intrinsics = options_.cameras[0].intrinsics;
-  return intrinsics ? pixels / intrinsics->focal_x : pixels;
 }
 
 absl::StatusOr<std::array<Camera, 2>> Localizer::CamerasFor(

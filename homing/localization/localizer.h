@@ -9,6 +9,7 @@
 
 #include "absl/status/statusor.h"
 #include "homing/flow/observation.h"
+#include "homing/localization/path_pose.h"
 #include "homing/localization/position_filter.h"
 #include "homing/matching/matcher.h"
 
@@ -41,9 +42,10 @@ struct Localization {
   std::optional<std::int32_t> landmark;
   std::optional<double> similarity;
   std::vector<Match> matches;
-  // Turn since the reference frame beyond what following the outbound path needs, to the robot's
-  // left (METHOD 7): rad where a focal length is known, else pixels. Absent without two cameras
-  // that look across the direction of travel.
+  // Turn since the last step beyond what following the outbound path needs, to the robot's left
+  // (METHOD 7): rad where a focal length is known, else pixels. Its sum is the heading against the
+  // path, since it takes up what was wrong before. Absent without two cameras that look across the
+  // direction of travel.
   std::optional<double> turn;
 };
 
@@ -71,8 +73,12 @@ class Localizer {
   absl::StatusOr<std::array<Camera, 2>> CamerasFor(std::span<const JourneyRef> journeys) const;
   SeenSides FindRouteLandmarks(const ObservedFlow& flow, Motion motion) const;
   SeenProfiles MakeRouteProfiles(const ObservedFlow& flow, Motion motion) const;
-  std::optional<double> TurnOf(std::span<const JourneyRef> journeys, const SeenProfiles& seen,
-                               const Position& position) const;
+  // Moves the pose beside the path, and gives the flow as if the robot headed along it.
+  ObservedFlow FollowPath(std::span<const JourneyRef> journeys, const ObservedFlow& flow,
+                          Motion motion);
+  // The pose beside the path, and how the robot has turned against it, to the answer.
+  void TellPose(std::span<const JourneyRef> journeys, const ObservedFlow& flow,
+                Localization& result);
   void TellLandmark(std::span<const JourneyRef> journeys, const SeenSides& seen,
                     Localization& result);
 
@@ -80,6 +86,9 @@ class Localizer {
   ObservationFlow flow_;
   Matcher matcher_;
   PositionFilter filter_;
+  PathPoseFilter path_;
+  // Heading told so far.
+  double told_heading_ = 0;
   // The answer to the last step.
   std::optional<Localization> last_;
 };

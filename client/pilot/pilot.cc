@@ -1,0 +1,178 @@
+#include "client/pilot/pilot.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace homing::client {
+namespace {
+
+// Commands are remembered so long, s.
+constexpr double kMemoryS = 10;
+// Time constant of the drift, s, and its bound, rad/s.
+constexpr double kDriftS = 1.0;
+constexpr double kMostDrift = 0.3;
+// Turned round: this near, rad; slower from here on.
+constexpr double kTurnedRound = 0.05;
+constexpr double kTurnSlowly = 0.5;
+constexpr double kLeastSpeedMps = 0.15;
+// Slows down towards home: m/s for each metre left.
+constexpr double kSpeedPerM = 0.5;
+// A sweep goes so far ahead and back, m, and swings the heading by so much, rad, over so many
+// metres.
+constexpr double kSweepM = 1.5;
+constexpr double kSweepHeading = 0.2;
+constexpr double kSweepPeriodM = 1.5;
+
+}  // namespace
+
+Pilot::Pilot(const PilotOptions& options)
+    : options_(options), state_(options.turn_round ? State::kTurningRound : State::kDriving) {
+  known_.remaining_m = options.route_m;
+  if (options.turn_round) known_.heading = -std::numbers::pi;
+  now_ = known_;
+}
+
+double Pilot::Turned(double from_s, double to_s) const {
+  double turned = 0;
+  for (std::size_t i = 0; i < past_.size(); ++i) {
+    const double begin = std::max(from_s, past_[i].time_s);
+    const double end = std::min(to_s, i + 1 < past_.size() ? past_[i + 1].time_s : to_s);
+    if (end > begin) turned += past_[i].turn_rate * (end - begin);
+  }
+  return turned;
+}
+
+Pilot::Belief Pilot::Carried(const Belief& belief, double from_s, double to_s) const {
+  Belief carried = belief;
+  for (std::size_t i = 0; i < past_.size(); ++i) {
+    const double begin = std::max(from_s, past_[i].time_s);
+    const double end = std::min(to_s, i + 1 < past_.size() ? past_[i + 1].time_s : to_s);
+    if (end <= begin) continue;
+    const double driven = past_[i].speed_mps * (end - begin);
+    const double turned = (past_[i].turn_rate + drift_) * (end - begin);
+    carried.heading += 0.5 * turned;
+    carried.offset_m += driven * std::sin(carried.heading);
+    carried.remaining_m -= Ahead() * driven * std::cos(carried.heading);
+    carried.heading += 0.5 * turned;
+  }
+  return carried;
+}
+
+void Pilot::Take(const PilotAnswer& answer) {
+  if (answer.sequence <= last_sequence_) return;
+  heard_s_ = last_drive_s_;
+  TakeTurn(answer);
+  TakePlace(answer);
+  last_sequence_ = answer.sequence;
+  answer_time_s_ = std::max(round_s_, answer.time_s);
+}
+
+// The turns add up to the heading. Those of answers that were lost are taken from the commands.
+void Pilot::TakeTurn(const PilotAnswer& answer) {
+  const double since_s = answer.time_s - answer_time_s_;
+  const auto observations = static_cast<double>(answer.sequence - last_sequence_);
+  if (last_sequence_ >= 0 && observations > 1) {
+    known_.heading += (Turned(answer_time_s_, answer.time_s) + drift_ * since_s) *
+                      (observations - 1) / observations;
+  }
+  if (!answer.turn || answer.time_s < round_s_) return;
+  known_.heading += *answer.turn;
+  const double since_turn_s = answer.time_s - turn_time_s_;
+  if (last_sequence_ >= 0 && observations == 1 && since_turn_s > 0 && since_turn_s < 1 &&
+      state_ == State::kDriving) {
+    const double drift = (*answer.turn - Turned(turn_time_s_, answer.time_s)) / since_turn_s;
+    drift_ += (1 - std::exp(-since_turn_s / kDriftS)) *
+              (std::clamp(drift, -2 * kMostDrift, 2 * kMostDrift) - drift_);
+    drift_ = std::clamp(drift_, -kMostDrift, kMostDrift);
+  }
+  turn_time_s_ = answer.time_s;
+}
+
+void Pilot::TakePlace(const PilotAnswer& answer) {
+  const Belief expected = Carried(known_, answer_time_s_, answer.time_s);
+  is_sure_ = answer.outcome == PilotAnswer::Outcome::kMatch;
+  if (state_ == State::kTurningRound || answer.time_s < round_s_) return;
+  known_.offset_m =
+      answer.path_offset ? *answer.path_offset * options_.distance_m : expected.offset_m;
+  known_.remaining_m = answer.progress_home && is_sure_
+                           ? (1 - *answer.progress_home) * options_.route_m
+                           : expected.remaining_m;
+}
+
+PilotCommand Pilot::Drive(double now_s) {
+  const double dt = last_drive_s_ < 0 ? 0 : now_s - last_drive_s_;
+  last_drive_s_ = now_s;
+  if (heard_s_ < 0) heard_s_ = now_s;
+  now_ = Carried(known_, answer_time_s_, now_s);
+  const double driven = std::abs(motion_.speed_mps) * dt;
+  unsure_m_ = is_sure_ ? 0 : unsure_m_ + driven;
+  PilotCommand command;
+  if (state_ == State::kTurningRound) {
+    command = TurnRound();
+  } else if (state_ != State::kHome) {
+    const bool is_late = now_s - heard_s_ > options_.stop_after_s;
+    if (unsure_m_ <= options_.patience_m && now_.remaining_m <= options_.stop_before_m) {
+      state_ = State::kHome;
+    } else if (is_late) {
+      state_ = State::kWaiting;
+    } else if (unsure_m_ > options_.patience_m) {
+      if (state_ != State::kSearching) searched_m_ = 0;
+      state_ = State::kSearching;
+      searched_m_ += driven;
+      command = Search();
+    } else {
+      state_ = State::kDriving;
+      command = FollowPath(SpeedFor(now_s));
+    }
+  }
+  // What the actuators will do until the next call.
+  const double share = options_.lag_s > 0 ? 1 - std::exp(-dt / options_.lag_s) : 1;
+  const double kept = 1 - options_.usual_slip;
+  motion_.speed_mps += share * (kept * command.speed_mps - motion_.speed_mps);
+  motion_.turn_rate += share * (kept * command.turn_rate - motion_.turn_rate);
+  past_.push_back({now_s, motion_.speed_mps, motion_.turn_rate});
+  while (past_.front().time_s < now_s - kMemoryS) past_.pop_front();
+  return command;
+}
+
+PilotCommand Pilot::TurnRound() {
+  if (std::abs(now_.heading) < kTurnedRound) {
+    // What is left is told by the answers, as what was wrong before.
+    state_ = State::kDriving;
+    round_s_ = last_drive_s_;
+    turn_time_s_ = answer_time_s_ = last_drive_s_;
+    known_ = {.offset_m = 0, .heading = 0, .remaining_m = options_.route_m};
+    now_ = known_;
+    return {};
+  }
+  const double rate = now_.heading < 0 ? options_.most_turn_rate : -options_.most_turn_rate;
+  return {0, std::abs(now_.heading) > kTurnSlowly ? rate : 0.4 * rate};
+}
+
+double Pilot::SpeedFor(double now_s) const {
+  double speed = options_.most_speed_mps;
+  if (!is_sure_ || now_s - heard_s_ > options_.slow_after_s) speed *= options_.unsure_speed;
+  speed = std::min(speed, kSpeedPerM * std::max(0.0, now_.remaining_m));
+  return std::max(kLeastSpeedMps, speed * std::cos(std::min(1.2, 2 * std::abs(now_.heading))));
+}
+
+// Heads back to the path, the more the further beside it; in reverse the other way.
+PilotCommand Pilot::FollowPath(double speed_mps) const {
+  const double wanted = std::clamp(-Ahead() * options_.heading_per_m * now_.offset_m,
+                                   -options_.most_heading, options_.most_heading);
+  const double rate = options_.turn_gain * (wanted - now_.heading) - drift_;
+  return {Ahead() * speed_mps, std::clamp(rate, -options_.most_turn_rate, options_.most_turn_rate)};
+}
+
+// To and fro, with a heading that swings: one of them is the path's.
+PilotCommand Pilot::Search() const {
+  const bool is_back = std::fmod(searched_m_, 2 * kSweepM) >= kSweepM;
+  const double swing = kSweepHeading * std::sin(2 * std::numbers::pi * searched_m_ / kSweepPeriodM);
+  const double rate = options_.turn_gain * (swing - now_.heading);
+  const double speed = options_.search_speed * options_.most_speed_mps;
+  return {is_back ? -Ahead() * speed : Ahead() * speed,
+          std::clamp(rate, -options_.most_turn_rate, options_.most_turn_rate)};
+}
+
+}  // namespace homing::client

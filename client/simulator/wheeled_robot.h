@@ -1,0 +1,66 @@
+// A robot on two driven wheels: it follows commands late, slips, and never does quite what it is
+// commanded.
+#ifndef CLIENT_SIMULATOR_WHEELED_ROBOT_H_
+#define CLIENT_SIMULATOR_WHEELED_ROBOT_H_
+
+#include <array>
+#include <cstdint>
+
+#include "client/simulator/geometry.h"
+
+namespace homing::client {
+
+struct WheeledRobotOptions {
+  // Time constant of the actuators, s. [0, 2].
+  double lag_s = 0.2;
+  // Most that a wheel slips, a share of its motion. Each wheel's slip varies by itself. [0, 1).
+  double slip = 0.2;
+  // Deviation of the speed and of the turn rate from the command, a share of it, changing
+  // kNoiseHz times a second. [0, 1].
+  double noise = 0.05;
+  // Between the wheels, m. Above 0.
+  double track_m = 0.6;
+  std::uint64_t seed = 1;
+
+  static constexpr double kNoiseHz = 10;
+};
+
+// Its pose's heading is where it heads. The same seed and commands give the same path. Not
+// thread-safe.
+class WheeledRobot {
+ public:
+  WheeledRobot(const WheeledRobotOptions& options, const Pose& start);
+
+  // Speed ahead, m/s, and turn rate to the left, rad/s.
+  struct Command {
+    double speed_mps = 0;
+    double turn_rate = 0;
+  };
+  // Drives on under one command for a time.
+  void Drive(const Command& command, double seconds);
+  // Sets the robot down elsewhere.
+  void SetDown(const Pose& pose) { pose_ = pose; }
+
+  const Pose& pose() const { return pose_; }
+  // What the actuators do now.
+  const Command& motion() const { return motion_; }
+  double time_s() const { return static_cast<double>(ticks_) * kTickS; }
+
+ private:
+  static constexpr double kTickS = 0.01;
+
+  void Tick(const Command& command);
+  // A share of the motion, by wheel.
+  double SlipOf(std::size_t wheel) const;
+
+  WheeledRobotOptions options_;
+  Pose pose_;
+  Command motion_;
+  std::int64_t ticks_ = 0;
+  // Of the slip of each wheel, two waves.
+  std::array<std::array<double, 2>, 2> phases_{};
+};
+
+}  // namespace homing::client
+
+#endif  // CLIENT_SIMULATOR_WHEELED_ROBOT_H_
