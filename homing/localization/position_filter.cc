@@ -14,9 +14,10 @@ namespace {
 constexpr double kNoMass = 1e-12;
 // Evidence of an observation: steps moved over correlation length, times this.
 constexpr double kEvidencePerLength = 1.5;
-// Log odds an observation of full weight, for each unit of nearness, which is bounded.
+// Log odds an observation of full weight, for each tenth of shared change; this is bounded.
 constexpr double kMembershipGain = 0.5;
-constexpr double kMostNearness = 2;
+constexpr double kSharedUnit = 0.1;
+constexpr double kMostShared = 2;
 // Steps around the believed one that count for it, correlation lengths.
 constexpr double kNearSteps = 1;
 // The active window holds steps of at least this mass. It is used while the robot is on the route
@@ -160,7 +161,7 @@ std::vector<std::int16_t> PositionFilter::RatiosOf(std::size_t journey, const Jo
 }
 
 void PositionFilter::Weigh(std::span<const JourneyRef> journeys, const SeenProfiles& profiles,
-                           const std::function<std::span<const float>(std::size_t)>& factors) {
+                           const Factors& factors) {
   double after = 0;
   for (std::size_t i = 0; i < beliefs_.size(); ++i) {
     const std::vector<std::int16_t> ratios =
@@ -179,7 +180,19 @@ void PositionFilter::Weigh(std::span<const JourneyRef> journeys, const SeenProfi
   }
 }
 
-double PositionFilter::WeightOfObservation() const {
+double PositionFilter::MeanFactor(const Factors& factors) const {
+  double fit = 0, before = 0;
+  for (std::size_t i = 0; i < masses_.size(); ++i) {
+    const std::span<const float> of_journey = factors(i);
+    for (std::size_t s = 0; s < masses_[i].mass.size(); ++s) {
+      fit += double{masses_[i].mass[s]} * double{of_journey[s]};
+      before += double{masses_[i].mass[s]};
+    }
+  }
+  return std::max(fit, kNoMass) / std::max(before, kNoMass);
+}
+
+double PositionFilter::WeightOfObservation(double moved) const {
   if (!started_) {
     return 1;
   }
@@ -192,25 +205,35 @@ double PositionFilter::WeightOfObservation() const {
       length = profile_likelihood_.routes()[i].correlation_steps;
     }
   }
-  return std::clamp(kEvidencePerLength * speed_.absolute / length, 0.01, 1.0);
+  return std::clamp(kEvidencePerLength * moved / length, 0.01, 1.0);
 }
 
-void PositionFilter::AddMembership(double weight) {
+void PositionFilter::AddMembership(std::span<const JourneyRef> journeys, double moved,
+                                   double weight) {
   const auto length_of = [this](std::size_t i) {
     return profile_likelihood_.routes()[i].correlation_steps;
   };
   const auto half = std::max<std::int64_t>(1, std::lround(kNearSteps * length_of(0)));
   const auto [journey, window] = FindBest(half);
-  const double nearness = profile_likelihood_.Nearness(journey, window.first, window.last);
-  membership_.Add(kMembershipGain * weight * std::clamp(nearness, -kMostNearness, kMostNearness));
+  moved_ += moved;
+  BelievedInstant now = profile_likelihood_.Believed(journey, window.first, window.last);
+  now.moved = moved_;
+  const auto shared = shared_change_.Add(journeys, profile_likelihood_.routes(), now);
+  if (shared) {
+    membership_.Add(kMembershipGain * weight *
+                    std::clamp(*shared / kSharedUnit, -kMostShared, kMostShared));
+  }
 }
 
 void PositionFilter::CorrectByProfiles(std::span<const JourneyRef> journeys,
                                        const SeenProfiles& profiles) {
-  const double weight = WeightOfObservation();
+  const double moved = distance_.Update(profile_likelihood_.routes(), masses_, profiles)
+                           .value_or(std::min(1.0, speed_.absolute));
+  const double weight = WeightOfObservation(moved);
   profile_likelihood_.Compute(journeys, profiles, masses_, weight);
+  membership_.Fit(MeanFactor([this](std::size_t i) { return profile_likelihood_.of(i); }));
   Weigh(journeys, profiles, [this](std::size_t i) { return profile_likelihood_.of(i); });
-  AddMembership(weight);
+  AddMembership(journeys, moved, weight);
   profile_likelihood_.Learn();
   has_offset_ = true;
   FocusIfKnown();
@@ -220,16 +243,11 @@ void PositionFilter::CorrectByLandmarks(std::span<const JourneyRef> journeys,
                                         const SeenSides& seen) {
   Unfocus();
   likelihood_.Compute(journeys, seen);
-  double fit = 0, before = 0;
-  for (std::size_t i = 0; i < masses_.size(); ++i) {
-    for (std::size_t s = 0; s < masses_[i].mass.size(); ++s) {
-      fit += double{masses_[i].mass[s]} * double{likelihood_.of(i)[s]};
-      before += double{masses_[i].mass[s]};
-    }
-  }
-  Weigh(journeys, {}, [this](std::size_t i) { return std::span<const float>(likelihood_.of(i)); });
-  membership_.Add(kLandmarkWeight * (std::log(std::max(fit, kNoMass) / std::max(before, kNoMass)) -
-                                     std::log(likelihood_.OffRoute())));
+  const auto factors = [this](std::size_t i) { return std::span<const float>(likelihood_.of(i)); };
+  const double fit = MeanFactor(factors);
+  Weigh(journeys, {}, factors);
+  membership_.Fit(fit / likelihood_.OffRoute());
+  membership_.Add(kLandmarkWeight * (std::log(fit) - std::log(likelihood_.OffRoute())));
 }
 
 void PositionFilter::Correct(std::span<const JourneyRef> journeys, const SeenSides& seen,

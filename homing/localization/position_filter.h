@@ -10,12 +10,14 @@
 #include <vector>
 
 #include "homing/flow/motion.h"
+#include "homing/localization/distance_moved.h"
 #include "homing/localization/route_belief.h"
 #include "homing/localization/route_membership.h"
 #include "homing/localization/step_likelihood.h"
 #include "homing/localization/step_window.h"
 #include "homing/matching/matcher.h"
 #include "homing/profile/profile_likelihood.h"
+#include "homing/profile/shared_change.h"
 
 namespace homing {
 
@@ -99,18 +101,22 @@ class PositionFilter {
   void CorrectByLandmarks(std::span<const JourneyRef> journeys, const SeenSides& seen);
   // By journey, of the steps in focus.
   std::vector<StepMass> Masses() const;
+  // Of the steps of a journey's active window.
+  using Factors = std::function<std::span<const float>(std::size_t journey)>;
+  // Mean over where the robot may be.
+  double MeanFactor(const Factors& factors) const;
   // Multiplies the steps of each journey's active window by its factors, and the speeds by what the
   // odometer says.
   void Weigh(std::span<const JourneyRef> journeys, const SeenProfiles& profiles,
-             const std::function<std::span<const float>(std::size_t)>& factors);
+             const Factors& factors);
   // By step of the active window: what the odometer says, an index into SpeedEvidence.
   std::vector<std::int16_t> RatiosOf(std::size_t journey, const JourneyMap& map,
                                      const SeenProfiles& profiles) const;
   // What this observation may say that the ones before have not: the steps that the robot has moved
   // over the correlation length of the map. (0, 1].
-  double WeightOfObservation() const;
-  // Evidence of being on the route, from the steps near the believed one.
-  void AddMembership(double weight);
+  double WeightOfObservation(double moved) const;
+  // Evidence of being on the route, from how the view has changed since a while ago.
+  void AddMembership(std::span<const JourneyRef> journeys, double moved, double weight);
   // Where the robot is well known, only the steps around it are held one by one; else all.
   void FocusIfKnown();
   void Unfocus();
@@ -128,6 +134,10 @@ class PositionFilter {
   StepLikelihood likelihood_;
   ProfileLikelihood profile_likelihood_;
   RouteMembership membership_;
+  DistanceMoved distance_;
+  SharedChange shared_change_;
+  // Steps since the first observation.
+  double moved_ = 0;
   // By journey: where, if on a route at all. Together the mass is 1.
   std::vector<RouteBelief> beliefs_;
   // After the last observation, by journey.

@@ -10,6 +10,8 @@ namespace {
 // for long, a stretch that has changed does not take it off.
 constexpr double kLeastLogOdds = -3;
 constexpr double kMostLogOdds = 8;
+// It may come back.
+constexpr double kMostLeft = 0.95;
 
 }  // namespace
 
@@ -21,10 +23,11 @@ void RouteMembership::Add(double evidence) {
 }
 
 void RouteMembership::Leave(double fraction) {
-  const double on_route = OnRoute() * (1 - fraction);
-  Add(std::log(std::max(on_route, 1e-9) / (1 - on_route)) - log_odds_);
+  left_ = std::min(left_ + (1 - left_) * fraction, kMostLeft);
 }
 
-double RouteMembership::OnRoute() const { return 1 / (1 + std::exp(-log_odds_)); }
+void RouteMembership::Fit(double ratio) { left_ /= left_ + (1 - left_) * ratio; }
+
+double RouteMembership::OnRoute() const { return (1 - left_) / (1 + std::exp(-log_odds_)); }
 
 }  // namespace homing

@@ -13,14 +13,18 @@ class RouteMembership {
 
   // `evidence`: logarithm of how much likelier the observation is on the route than off it.
   void Add(double evidence);
-  // A fraction of the mass has left the route. [0, 1].
+  // A fraction of the mass has passed an end of the route. [0, 1].
   void Leave(double fraction);
+  // The rest of it fits what is seen `ratio` times as well as a place at random does. Positive.
+  void Fit(double ratio);
 
   // Probability of being on the route.
   double OnRoute() const;
 
  private:
   double log_odds_;
+  // Has passed an end, if on the route before.
+  double left_ = 0;
 };
 
 }  // namespace homing

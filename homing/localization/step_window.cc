@@ -8,6 +8,9 @@
 namespace homing {
 namespace {
 
+// Where the mass is narrow many windows hold all of it: what its middle step adds to a window.
+constexpr double kOfMiddle = 1e-3;
+
 // Sums of the mass below each step of the focus.
 class MassBelow {
  public:
@@ -39,33 +42,21 @@ StepWindow WindowAround(std::int64_t step, std::int64_t half, std::int64_t step_
           .mass = 0};
 }
 
-// The mean step of the mass within the window.
-std::int64_t MeanStep(const StepMass& mass, const StepWindow& window) {
-  const std::int64_t end = mass.first + std::ssize(mass.mass);
-  const std::int64_t begin = std::max(window.first, mass.first);
-  double moment = 0;
-  for (std::int64_t s = begin; s <= std::min(window.last, end - 1); ++s) {
-    moment += static_cast<double>(s - begin) *
-              double{mass.mass[static_cast<std::size_t>(s - mass.first)]};
-  }
-  return begin + std::llround(moment / window.mass);
-}
-
 }  // namespace
 
 StepWindow BestWindow(const StepMass& mass, std::int64_t half, std::int64_t step_count) {
   const MassBelow below(mass);
   StepWindow best;
+  double best_score = 0;
   for (std::int64_t s = mass.first; s < mass.first + std::ssize(mass.mass); ++s) {
     StepWindow window = WindowAround(s, half, step_count);
     window.mass = below.Within(window.first, window.last);
-    if (window.mass > best.mass) {
+    const double score =
+        window.mass + kOfMiddle * double{mass.mass[static_cast<std::size_t>(s - mass.first)]};
+    if (score > best_score) {
+      best_score = score;
       best = window;
     }
-  }
-  if (best.mass > 0) {
-    best = WindowAround(MeanStep(mass, best), half, step_count);
-    best.mass = below.Within(best.first, best.last);
   }
   return best;
 }

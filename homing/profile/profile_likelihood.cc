@@ -24,6 +24,16 @@ bool HasProfiles(const JourneyRef& journey, std::size_t side) {
   return !journey.map->profiles(Side{static_cast<int>(side)}).empty();
 }
 
+// The cells that a view fills.
+const CellMask& CoveredBy(std::size_t view) {
+  static const auto masks = [] {
+    std::array<CellMask, kPathOffsets.size()> all;
+    for (std::size_t i = 0; i < all.size(); ++i) all[i] = CoveredCells(MagnificationOf(i));
+    return all;
+  }();
+  return masks[view];
+}
+
 // Stored profiles, and their biases.
 struct Sample {
   std::vector<const FlowProfile*> profiles;
@@ -56,11 +66,7 @@ Sample SampleOf(std::span<const JourneyRef> journeys, std::span<const RouteScale
 
 }  // namespace
 
-ProfileLikelihood::ProfileLikelihood() : anywhere_(PathOffsets::Prior()) {
-  for (std::size_t view = 0; view < kViews; ++view) {
-    covered_[view] = CoveredCells(MagnificationOf(view));
-  }
-}
+ProfileLikelihood::ProfileLikelihood() : anywhere_(PathOffsets::Prior()) {}
 
 bool ProfileLikelihood::CanCompare(std::span<const JourneyRef> journeys, const SeenProfiles& seen) {
   return std::ranges::any_of(journeys, [&seen](const JourneyRef& journey) {
@@ -82,7 +88,10 @@ void ProfileLikelihood::Grow(std::span<const JourneyRef> journeys) {
       routes_[i] = MeasureRoute(map);
     }
     for (std::optional<SideScale>& side : routes_[i].sides) {
-      if (side) side->bias.resize(static_cast<std::size_t>(map.step_count()));
+      if (!side) continue;
+      const auto steps = static_cast<std::size_t>(map.step_count());
+      side->bias.resize(steps);
+      side->usual_readings.resize(steps, side->usual_readings.back());
     }
   }
 }
@@ -149,14 +158,14 @@ std::vector<ProfileLikelihood::SeenView> ProfileLikelihood::ViewsOf(
 void ProfileLikelihood::Measure(std::span<const JourneyRef> journeys, Side side,
                                 const ProfileMaker& seen, std::span<const StepMass> predicted) {
   const auto at = static_cast<std::size_t>(side);
-  const std::vector<SeenView> views = ViewsOf(at, seen);
+  const std::vector<SeenView>& views = views_[at] = ViewsOf(at, seen);
   // All views at once: each stored profile is read once.
   std::vector<ProfileView> compared;
   compared.reserve(views.size());
   const auto [sample, biases] = SampleOf(journeys, routes_, side);
   std::vector<std::uint16_t> of_sample(views.size() * sample.size());
   for (std::size_t i = 0; i < views.size(); ++i) {
-    compared.push_back({views[i].profile, covered_[views[i].view],
+    compared.push_back({views[i].profile, CoveredBy(views[i].view),
                         std::span(of_sample).subspan(i * sample.size(), sample.size())});
   }
   ProfileDistances(compared, std::span(sample));
@@ -178,7 +187,7 @@ void ProfileLikelihood::Measure(std::span<const JourneyRef> journeys, Side side,
     for (const auto& [view, profile] : views) {
       std::vector<std::uint16_t>& distances = distances_[at][view][i];
       distances.resize(stored.size());
-      compared.push_back({profile, covered_[view], distances});
+      compared.push_back({profile, CoveredBy(view), distances});
     }
     ProfileDistances(compared, stored);
   }
@@ -258,6 +267,49 @@ void ProfileLikelihood::Learn() {
   }
   anywhere_ = PathOffsets::Mix(mass);
   ++instants_;
+}
+
+BelievedInstant ProfileLikelihood::Believed(std::size_t journey, std::int64_t first,
+                                            std::int64_t last) const {
+  const std::size_t offset = LikeliestOffset();
+  const std::int64_t held = first_steps_[journey];
+  std::vector<std::int32_t> sums;
+  BelievedInstant instant{.journey = journey, .step = std::max(first, held)};
+  for (std::size_t side = 0; side < compared_.size(); ++side) {
+    if (!compared_[side]) continue;
+    const std::size_t view = ViewOf(side, offset);
+    const auto seen = std::ranges::find(views_[side], view, &SeenView::view);
+    instant.seen[side] = {.profile = seen->profile, .covered = &CoveredBy(view)};
+    const std::vector<std::uint16_t>& distances = distances_[side][view][journey];
+    if (distances.empty()) continue;
+    const std::int64_t end = std::min(last + 1, held + std::ssize(distances));
+    sums.resize(static_cast<std::size_t>(std::max<std::int64_t>(0, end - instant.step)));
+    for (std::size_t i = 0; i < sums.size(); ++i) {
+      const auto step = static_cast<std::size_t>(instant.step) + i;
+      sums[i] += int{distances[step - static_cast<std::size_t>(held)]} -
+                 int{routes_[journey].sides[side]->bias[step]};
+    }
+  }
+  instant.step += std::ranges::min_element(sums) - sums.begin();
+  return instant;
+}
+
+void ProfileLikelihood::StartAtOffset(double offset) {
+  OffsetValues start{};
+  std::size_t nearest = 0;
+  for (std::size_t i = 1; i < kViews; ++i) {
+    if (std::abs(kPathOffsets[i] - offset) < std::abs(kPathOffsets[nearest] - offset)) nearest = i;
+  }
+  start[nearest] = 1;
+  anywhere_ = PathOffsets::Mix(start);
+}
+
+double ProfileLikelihood::MeanOffset() const {
+  double mean = 0;
+  for (std::size_t offset = 0; offset < kViews; ++offset) {
+    mean += anywhere_[offset] * kPathOffsets[offset];
+  }
+  return mean;
 }
 
 }  // namespace homing

@@ -14,6 +14,7 @@
 #include "homing/profile/profile_evidence.h"
 #include "homing/profile/profile_views.h"
 #include "homing/profile/route_scale.h"
+#include "homing/profile/shared_change.h"
 #include "homing/profile/step_mass.h"
 
 namespace homing {
@@ -42,10 +43,9 @@ class ProfileLikelihood {
 
   // By predicted step. Sides without profiles are neutral: 1.
   std::span<const float> of(std::size_t journey) const { return likelihoods_[journey]; }
-  // How much nearer the best of the steps `first` to `last` is than different places of the same
-  // map are, in tenths of the distance of different places; mean of the compared sides. Above 0:
-  // on the route. REQUIRES: some of these steps are predicted.
-  double Nearness(std::size_t journey, std::int64_t first, std::int64_t last) const;
+  // What was seen at this instant at the likeliest of the steps `first` to `last`. REQUIRES: some
+  // of these steps are predicted.
+  BelievedInstant Believed(std::size_t journey, std::int64_t first, std::int64_t last) const;
   // Starts with the robot at this offset, as MeanOffset gives it.
   void StartAtOffset(double offset);
   // Posterior mean of the offset, in distances of what is seen, to the left of the route.
@@ -60,8 +60,6 @@ class ProfileLikelihood {
     FlowProfile profile;
   };
 
-  double NearnessOfSide(std::size_t side, std::size_t journey, std::int64_t first,
-                        std::int64_t last) const;
   std::size_t LikeliestOffset() const;
   void Choose(std::span<const JourneyRef> journeys, std::span<const StepMass> predicted);
   void Measure(std::span<const JourneyRef> journeys, Side side, const ProfileMaker& seen,
@@ -77,7 +75,8 @@ class ProfileLikelihood {
   // Probability of the offset if the robot is in the stretch, of those that are tried.
   float WeightOf(std::size_t offset, std::size_t journey, std::size_t stretch) const;
 
-  std::array<CellMask, kViews> covered_;
+  // Of this instant, by side.
+  std::array<std::vector<SeenView>, 2> views_;
   std::array<std::array<Distances, kViews>, 2> distances_;
   std::array<std::array<DistanceScale, kViews>, 2> scales_;
   std::array<bool, 2> compared_{};

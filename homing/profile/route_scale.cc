@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "homing/flow/median.h"
+#include "homing/profile/different_share.h"
 #include "homing/profile/profile_distance.h"
 #include "homing/profile/profile_evidence.h"
 
@@ -14,11 +15,11 @@ namespace {
 
 // Stored profiles that are compared with all others.
 constexpr std::int64_t kSelfSamples = 256;
-// Places this many correlation lengths apart are different places.
-constexpr double kDifferentPlaces = 4;
 constexpr std::int64_t kMostLag = 200;
 // Part of a step's bias that is taken off. The whole would also take off what tells it apart.
 constexpr double kBiasPart = 0.5;
+// Neighbours whose readings are averaged.
+constexpr double kReadingSteps = 3;
 // Of the signs of two kinds of flow, one must be this much steadier.
 constexpr double kClearDirection = 0.2;
 // Deviation of normal noise over the median of its absolute second difference.
@@ -57,6 +58,34 @@ double Roughness(std::span<const FlowProfile> profiles, Value value) {
 
 int LengthOf(const OdometerReading& reading) { return reading.length_code; }
 int SpreadOf(const OdometerReading& reading) { return reading.spread_code; }
+
+// Mean over the neighbours, weighed by a Gaussian of kReadingSteps steps; where none has a reading,
+// the median of all.
+std::vector<float> UsualReadings(std::span<const FlowProfile> profiles,
+                                 const CameraOdometer& odometer) {
+  std::vector<std::int16_t> readings;
+  std::vector<float> valid;
+  for (const FlowProfile& profile : profiles) {
+    readings.push_back(odometer.Read(profile.odometer));
+    if (readings.back() != CameraOdometer::kNone) valid.push_back(readings.back());
+  }
+  std::vector<float> usual(profiles.size(), static_cast<float>(MedianOf(valid)));
+  const auto reach = static_cast<std::int64_t>(3 * kReadingSteps);
+  for (std::int64_t step = 0; step < std::ssize(usual); ++step) {
+    double sum = 0, weights = 0;
+    for (std::int64_t other = std::max<std::int64_t>(0, step - reach);
+         other <= std::min(step + reach, std::ssize(usual) - 1); ++other) {
+      const std::int16_t reading = readings[static_cast<std::size_t>(other)];
+      if (reading == CameraOdometer::kNone) continue;
+      const double apart = static_cast<double>(other - step) / kReadingSteps;
+      const double weight = std::exp(-0.5 * apart * apart);
+      sum += weight * reading;
+      weights += weight;
+    }
+    if (weights > 0) usual[static_cast<std::size_t>(step)] = static_cast<float>(sum / weights);
+  }
+  return usual;
+}
 
 // Distances of sampled profiles of one side to all of its stored ones.
 struct SelfDistances {
@@ -132,22 +161,18 @@ double CorrelationOf(const SelfDistances& self, std::int64_t steps) {
   return std::clamp<double>(static_cast<double>(steps) / 2, 1, static_cast<double>(kMostLag));
 }
 
-// Medians of the distances of pairs `near` steps apart, and of pairs further apart than `far`.
-void FillDistances(const SelfDistances& self, std::int64_t near, std::int64_t far,
-                   SideScale& side) {
-  std::vector<float> near_ones, far_ones, all;
+// Median distance of places `lag` apart; of all pairs on a map that is shorter.
+float DistanceAt(const SelfDistances& self, std::int64_t lag) {
+  std::vector<float> at_lag, all;
   for (std::size_t i = 0; i < self.at.size(); ++i) {
     for (std::int64_t step = 0; step < std::ssize(self.distances[i]); ++step) {
       const auto distance = static_cast<float>(self.distances[i][static_cast<std::size_t>(step)]);
-      const std::int64_t lag = std::abs(step - self.at[i]);
-      if (lag == near) near_ones.push_back(distance);
-      if (lag > far) far_ones.push_back(distance);
-      if (lag > 0) all.push_back(distance);
+      const std::int64_t apart = std::abs(step - self.at[i]);
+      if (apart == lag) at_lag.push_back(distance);
+      if (apart > 0) all.push_back(distance);
     }
   }
-  // A map shorter than the distance of different places: its pairs are all that is known.
-  side.typical = std::max(1.0F, static_cast<float>(MedianOf(far_ones.empty() ? all : far_ones)));
-  side.near = near_ones.empty() ? side.typical : static_cast<float>(MedianOf(near_ones));
+  return std::max(1.0F, static_cast<float>(MedianOf(at_lag.empty() ? all : at_lag)));
 }
 
 }  // namespace
@@ -191,6 +216,7 @@ RouteScale MeasureRoute(const JourneyMap& map) {
     const auto at = static_cast<std::size_t>(side);
     SideScale& scale = route.sides[at].emplace();
     scale.odometer = CameraOdometer(stored);
+    scale.usual_readings = UsualReadings(stored, scale.odometer);
     selves[at] = MeasureSelf(stored);
     scale.bias = BiasOf(selves[at], stored.size());
     TakeOff(scale.bias, selves[at]);
@@ -205,11 +231,15 @@ RouteScale MeasureRoute(const JourneyMap& map) {
   // The map's noise and that of the robot now, which has the same cameras; two cameras average.
   route.odometer_noise = *std::ranges::max_element(noises) * std::numbers::sqrt2 /
                          std::sqrt(static_cast<double>(noises.size()));
-  const auto near = static_cast<std::int64_t>(std::lround(route.correlation_steps));
-  const auto far = static_cast<std::int64_t>(std::ceil(kDifferentPlaces * route.correlation_steps));
+  const auto steps_of = [&route](double count) {
+    return static_cast<std::int64_t>(std::lround(count * route.correlation_steps));
+  };
   for (std::size_t at = 0; at < selves.size(); ++at) {
-    if (route.sides[at]) FillDistances(selves[at], near, far, *route.sides[at]);
+    if (!route.sides[at]) continue;
+    route.sides[at]->length_distance = DistanceAt(selves[at], steps_of(1));
+    route.sides[at]->stretch_distance = DistanceAt(selves[at], steps_of(kStretchLengths));
   }
+  MeasureDifferentShare(map, route);
   return route;
 }
 

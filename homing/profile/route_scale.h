@@ -40,16 +40,20 @@ class CameraOdometer {
   float length_weight_ = 1;
 };
 
+// Over a stretch of so many correlation lengths a map has changed (SharedChange).
+inline constexpr double kStretchLengths = 2;
+
 // Of the profiles of one side. Immutable.
 struct SideScale {
   CameraOdometer odometer;
+  // By step: mean reading of the steps around it.
+  std::vector<float> usual_readings;
   // By step: half of what its distance to other places lies above the usual one. A step that is
   // near to everything would attract every observation.
   std::vector<std::int16_t> bias;
-  // Distance of different places, after the bias: the median of all pairs, and of pairs one
-  // correlation length apart.
-  float typical = 1;
-  float near = 1;
+  // Median distances of places one correlation length apart, and kStretchLengths. At least 1.
+  float length_distance = 1;
+  float stretch_distance = 1;
 };
 
 // Immutable.
@@ -62,6 +66,9 @@ struct RouteScale {
   double correlation_steps = 1;
   // Deviation of the noise of log2(flow now / flow stored), octaves.
   double odometer_noise = 0;
+  // Share of the change over a stretch that the likest different place has too, median. By the
+  // sides that are compared: 1 left, 2 right, 3 both; 0 where a map is too short to tell.
+  std::array<float, 4> different_share{};
 };
 
 RouteScale MeasureRoute(const JourneyMap& map);

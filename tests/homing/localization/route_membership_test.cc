@@ -22,8 +22,27 @@ TEST(RouteMembershipTest, HoweverLongOffTheRouteSomeEvidenceBringsItBack) {
   for (int i = 0; i < 1000; ++i) membership.Add(-5);
   membership.Leave(1);
   EXPECT_LT(membership.OnRoute(), 0.1);
-  for (int i = 0; i < 4; ++i) membership.Add(1);
+  for (int i = 0; i < 4; ++i) {
+    membership.Add(1);
+    membership.Fit(5);
+  }
   EXPECT_GT(membership.OnRoute(), 0.5);
+}
+
+TEST(RouteMembershipTest, WhatHasLeftIsForgottenWhereTheRestFits) {
+  RouteMembership membership(0.2);
+  membership.Leave(0.5);
+  membership.Fit(1);
+  EXPECT_NEAR(membership.OnRoute(), 0.4, 1e-9);
+  for (int i = 0; i < 10; ++i) membership.Fit(3);
+  EXPECT_NEAR(membership.OnRoute(), 0.8, 1e-3);
+}
+
+TEST(RouteMembershipTest, WhatHasLeftStaysWhereTheRestDoesNotFit) {
+  RouteMembership membership(0.2);
+  membership.Leave(0.2);
+  for (int i = 0; i < 10; ++i) membership.Fit(0.5);
+  EXPECT_LT(membership.OnRoute(), 0.1);
 }
 
 }  // namespace

@@ -75,7 +75,7 @@ TEST_F(ProfileLikelihoodTest, TheStepItselfIsTheMostLikely) {
     const auto likelihood = See(fields_[static_cast<std::size_t>(step)]);
     // Evidence is bounded: another step may reach the bound too.
     EXPECT_EQ(std::ranges::max(likelihood), likelihood[static_cast<std::size_t>(step)]);
-    EXPECT_GT(likelihood_.Nearness(0, step, step), 0);
+    EXPECT_EQ(likelihood_.Believed(0, 0, kMapSteps - 1).step, step);
   }
 }
 
@@ -114,7 +114,7 @@ TEST_F(ProfileLikelihoodTest, ALongForeignWayLeavesTheOddsBounded) {
     position = filter.Update({&ref_, 1}, Motion::kMoving, {}, seen);
   }
   EXPECT_EQ(position.outcome, Outcome::kUnknownPlace);
-  EXPECT_LT(position.unknown_probability, 0.96);
+  EXPECT_LT(position.unknown_probability, 0.999);
 }
 
 // The belief loses nearly all its mass beyond the ends of a short map, time and again.

@@ -1,0 +1,46 @@
+#include "homing/localization/distance_moved.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace homing {
+namespace {
+
+// Weight of the last reading in the usual one.
+constexpr double kLastReading = 0.3;
+constexpr double kMostMoved = 1;
+
+double MeanReading(std::span<const float> readings, const StepMass& mass) {
+  double sum = 0;
+  for (std::size_t i = 0; i < mass.mass.size(); ++i) {
+    sum += double{mass.mass[i]} * double{readings[static_cast<std::size_t>(mass.first) + i]};
+  }
+  return sum;
+}
+
+}  // namespace
+
+std::optional<double> DistanceMoved::Update(std::span<const RouteScale> routes,
+                                            std::span<const StepMass> masses,
+                                            const SeenProfiles& profiles) {
+  usual_.resize(routes.size());
+  double sum = 0, all = 0;
+  for (std::size_t i = 0; i < routes.size(); ++i) {
+    const double mass = masses[i].Sum();
+    for (std::size_t side = 0; side < profiles.size(); ++side) {
+      if (!routes[i].sides[side] || !profiles[side]) continue;
+      const std::int16_t now = routes[i].sides[side]->odometer.Read(profiles[side]->odometer());
+      if (now == CameraOdometer::kNone) continue;
+      std::optional<double>& usual = usual_[i][side];
+      usual = usual ? *usual + kLastReading * (now - *usual) : now;
+      sum += *usual * mass - MeanReading(routes[i].sides[side]->usual_readings, masses[i]);
+      all += mass;
+    }
+  }
+  if (!(all > 0)) {
+    return std::nullopt;
+  }
+  return std::min(kMostMoved, std::exp2(sum / all / CameraOdometer::kPerOctave));
+}
+
+}  // namespace homing

@@ -1,0 +1,81 @@
+#include "homing/profile/shared_change.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace homing {
+namespace {
+
+// A different place shares at least this much; and the threshold lies so much above what it shares.
+constexpr double kLeastShared = 0.12;
+constexpr double kAboveDifferent = 0.03;
+// Before it has moved a whole stretch, a robot is judged from this many correlation lengths on.
+constexpr double kFirstLengths = 1;
+// Instants closer together than this part of the stretch are not kept.
+constexpr double kSpacing = 1.0 / 16;
+
+std::span<const FlowProfile> ProfilesOf(std::span<const JourneyRef> journeys,
+                                        const BelievedInstant& at, std::size_t side) {
+  return journeys[at.journey].map->profiles(Side{static_cast<int>(side)});
+}
+
+// How much nearer the view is to its own place than to the other instant's place.
+int Preference(const BelievedInstant::Seen& seen, const FlowProfile& own,
+               const FlowProfile& other) {
+  const std::array<const FlowProfile*, 2> stored{&own, &other};
+  std::array<std::uint16_t, 2> distances{};
+  const ProfileView view{seen.profile, *seen.covered, distances};
+  ProfileDistances({&view, 1}, std::span<const FlowProfile* const>(stored));
+  return int{distances[1]} - int{distances[0]};
+}
+
+// Usual distance of places `lengths` correlation lengths apart.
+double UsualDistance(const SideScale& side, double lengths) {
+  const double part = std::clamp((lengths - 1) / (kStretchLengths - 1), 0.0, 1.0);
+  return (1 - part) * double{side.length_distance} + part * double{side.stretch_distance};
+}
+
+// Of the change between both instants; none where no side can be compared.
+std::optional<double> ShareOf(std::span<const JourneyRef> journeys, const RouteScale& route,
+                              const BelievedInstant& now, const BelievedInstant& then) {
+  const double lengths = (now.moved - then.moved) / route.correlation_steps;
+  double sum = 0, count = 0;
+  std::size_t sides = 0;
+  for (std::size_t side = 0; side < now.seen.size(); ++side) {
+    const auto here = ProfilesOf(journeys, now, side), there = ProfilesOf(journeys, then, side);
+    if (!now.seen[side] || !then.seen[side] || here.empty() || there.empty()) continue;
+    const FlowProfile& now_stored = here[static_cast<std::size_t>(now.step)];
+    const FlowProfile& then_stored = there[static_cast<std::size_t>(then.step)];
+    const int preference = Preference(*now.seen[side], now_stored, then_stored) +
+                           Preference(*then.seen[side], then_stored, now_stored);
+    sum += preference / (2 * UsualDistance(*route.sides[side], lengths));
+    count += 1;
+    sides |= std::size_t{1} << side;
+  }
+  if (count == 0) {
+    return std::nullopt;
+  }
+  return sum / count - std::max(kLeastShared, double{route.different_share[sides]}) -
+         kAboveDifferent;
+}
+
+}  // namespace
+
+std::optional<double> SharedChange::Add(std::span<const JourneyRef> journeys,
+                                        std::span<const RouteScale> routes,
+                                        const BelievedInstant& now) {
+  const RouteScale& route = routes[now.journey];
+  const double stretch = kStretchLengths * route.correlation_steps;
+  // The latest instant that is far enough behind; at first one that is less far.
+  while (past_.size() > 1 && now.moved - past_[1].moved >= stretch) past_.pop_front();
+  std::optional<double> shared;
+  if (!past_.empty() && now.moved - past_[0].moved >= kFirstLengths * route.correlation_steps) {
+    shared = ShareOf(journeys, route, now, past_[0]);
+  }
+  if (past_.empty() || now.moved - past_.back().moved >= kSpacing * stretch) {
+    past_.push_back(now);
+  }
+  return shared;
+}
+
+}  // namespace homing

@@ -1,0 +1,50 @@
+// Whether the robot sees the map's changes: evidence of being on the route that no light, no camera
+// and no landmark that is near to everything can imitate. See docs/algorithm.md.
+#ifndef HOMING_PROFILE_SHARED_CHANGE_H_
+#define HOMING_PROFILE_SHARED_CHANGE_H_
+
+#include <array>
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <span>
+
+#include "homing/journey/journey_ref.h"
+#include "homing/landmark/flow_profile.h"
+#include "homing/profile/profile_distance.h"
+#include "homing/profile/route_scale.h"
+
+namespace homing {
+
+// What was seen at one instant, and where the robot is believed to have been.
+struct BelievedInstant {
+  std::size_t journey = 0;
+  std::int64_t step = 0;
+  // Indexed by side of the route; the view of the likeliest path offset. None where no camera
+  // looked.
+  struct Seen {
+    FlowProfile profile;
+    const CellMask* covered = nullptr;
+  };
+  std::array<std::optional<Seen>, 2> seen{};
+  // Steps that the robot has moved since the first instant.
+  double moved = 0;
+};
+
+// Keeps the instants of the last stretch. Not thread-safe.
+class SharedChange {
+ public:
+  // Between this instant and the one some correlation lengths before, the map changes and the view
+  // changes. Returns how much of the map's usual change they share, less what the likest different
+  // place of the same map shares: above 0 on the route. None while the robot has not moved so far.
+  // `routes`: the scales of `journeys`.
+  std::optional<double> Add(std::span<const JourneyRef> journeys,
+                            std::span<const RouteScale> routes, const BelievedInstant& now);
+
+ private:
+  std::deque<BelievedInstant> past_;
+};
+
+}  // namespace homing
+
+#endif  // HOMING_PROFILE_SHARED_CHANGE_H_
