@@ -67,7 +67,8 @@ absl::StatusOr<v1::Journey> RecordOut(const Session& session, const Connection& 
   *request.mutable_journey()->mutable_settings()->mutable_right_camera() = SimulatedCamera();
   HOMING_RETURN_IF_ERROR(journeys.Create(request).status());
   HOMING_ASSIGN_OR_RETURN(Cameras cameras, OpenCameras(OutText(flags), OutText(flags)));
-  CameraObservations observations(std::move(cameras), std::nullopt);
+  HOMING_ASSIGN_OR_RETURN(auto instants, CameraInstants::Create(std::move(cameras), FrameChoice()));
+  CameraObservations observations(std::move(instants), std::nullopt);
   RecordingOptions options;
   options.journey = flags.journey;
   options.writer_id = DefaultWriter();
