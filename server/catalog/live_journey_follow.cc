@@ -15,9 +15,11 @@ absl::Status LiveJourney::Follow(const storage::JourneyMark& mark) {
   {
     const MutexLock lock(mutex_);
     is_replaced = epoch_ != 0 && mark.epoch > epoch_;
-    is_over = is_finished && record_.state != storage::JourneyState::kFinished;
+    // Not by record_, which may have caught up without ending the claim.
+    is_over = is_finished && lease_.is_held();
     const bool is_behind = mark.next_sequence > record_.next_sequence && appends_under_way_ == 0;
-    if (!is_replaced && !is_over && !is_behind && mark.revision == revision_) {
+    const bool is_same = mark.state == record_.state && mark.revision == revision_;
+    if (!is_replaced && !is_over && !is_behind && is_same) {
       return absl::OkStatus();
     }
   }

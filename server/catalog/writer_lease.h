@@ -33,6 +33,8 @@ class WriterLease {
   std::uint64_t Take(const std::string& writer_id, TimePoint now, Evict evict, Evict* previous);
   // `claim` is the current one.
   bool Holds(std::uint64_t claim) const { return active_ && claim == claim_; }
+  // There is a claim, whether its stream is open or not.
+  bool is_held() const { return active_; }
   void Renew(TimePoint now) { renewed_ = now; }
   // The claim's stream has ended; the lease stays valid.
   void EndStream(std::uint64_t claim) { open_ = open_ && claim != claim_; }
