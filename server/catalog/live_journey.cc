@@ -78,6 +78,7 @@ absl::StatusOr<LiveClaim> LiveJourney::Claim(const std::string& writer_id, TimeP
     HOMING_RETURN_IF_ERROR(lease_.CheckFree(writer_id, now));
     claim.number = lease_.Take(writer_id, now, std::move(evict), &previous);
     AwaitQuiet();
+    is_claiming_ = true;
   }
   if (previous) {
     previous(WriterReplaced(name_));
@@ -86,6 +87,7 @@ absl::StatusOr<LiveClaim> LiveJourney::Claim(const std::string& writer_id, TimeP
   bool is_behind = false;
   {
     const MutexLock lock(mutex_);
+    is_claiming_ = false;
     if (!acquired.ok()) {
       lease_.Release();
       return acquired.status();

@@ -124,6 +124,8 @@ class LiveJourney {
   ConditionVariable quiet_;
   storage::JourneyRecord record_ HOMING_GUARDED_BY(mutex_);
   WriterLease lease_ HOMING_GUARDED_BY(mutex_);
+  // Claim has not returned yet.
+  bool is_claiming_ HOMING_GUARDED_BY(mutex_) = false;
   // Of the last claim here; 0: none.
   std::int64_t epoch_ HOMING_GUARDED_BY(mutex_) = 0;
   // JourneyMark::revision of record_; -1: unknown.

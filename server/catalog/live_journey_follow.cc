@@ -11,25 +11,30 @@ namespace homing::server {
 absl::Status LiveJourney::Follow(const storage::JourneyMark& mark) {
   const bool is_finished = mark.state == storage::JourneyState::kFinished;
   bool is_replaced = false;
-  bool is_over = false;
+  WriterLease::Evict evict;
   {
     const MutexLock lock(mutex_);
-    is_replaced = epoch_ != 0 && mark.epoch > epoch_;
+    // While a claim is being made here, the store may know its epoch before this object does.
+    is_replaced = epoch_ != 0 && mark.epoch > epoch_ && !is_claiming_;
     // Not by record_, which may have caught up without ending the claim.
-    is_over = is_finished && lease_.is_held();
+    const bool is_over = is_finished && lease_.is_held();
     const bool is_behind = mark.next_sequence > record_.next_sequence && appends_under_way_ == 0;
     const bool is_same = mark.state == record_.state && mark.revision == revision_;
     if (!is_replaced && !is_over && !is_behind && is_same) {
       return absl::OkStatus();
     }
+    if (is_replaced || is_over) {
+      evict = lease_.Release();
+      AwaitQuiet();
+    }
   }
-  if (is_replaced || is_over) {
-    EvictWriter(is_over ? JourneyFinished(name_) : WriterReplaced(name_));
+  if (evict) {
+    evict(is_finished ? JourneyFinished(name_) : WriterReplaced(name_));
   }
   HOMING_RETURN_IF_ERROR(CatchUp());
   const MutexLock lock(mutex_);
   revision_ = mark.revision;
-  if (is_replaced) epoch_ = 0;
+  if (is_replaced && epoch_ < mark.epoch) epoch_ = 0;
   return absl::OkStatus();
 }
 
