@@ -12,12 +12,12 @@ namespace homing::storage::postgres {
 namespace {
 
 constexpr char kInsertJourney[] =
-    "INSERT INTO journeys (journey_id, name, state, writer_id, readers, input, next_sequence,"
-    " resend_from, create_time_ns, start_time_ns, end_time_ns, step_count, landmark_count,"
-    " fingerprint_count) VALUES ($1, $2, $3, $4, $5, $6, $7, $8, $9, $10, $11, $12, $13, $14)"
-    " ON CONFLICT (journey_id) DO NOTHING";
-constexpr char kInsertSettings[] =
-    "INSERT INTO journey_settings (journey_id, settings) VALUES ($1, $2)";
+    "WITH created AS (INSERT INTO journeys (journey_id, name, state, writer_id, readers, input,"
+    " next_sequence, resend_from, create_time_ns, start_time_ns, end_time_ns, step_count,"
+    " landmark_count, fingerprint_count)"
+    " VALUES ($1, $2, $3, $4, $5, $6, $7, $8, $9, $10, $11, $12, $13, $14)"
+    " ON CONFLICT (journey_id) DO NOTHING RETURNING journey_id)"
+    " INSERT INTO journey_settings (journey_id, settings) SELECT journey_id, $15 FROM created";
 
 #define HOMING_PG_JOURNEY_COLUMNS                                                       \
   "SELECT name, state, writer_id, readers, input, next_sequence, resend_from,"          \
@@ -97,17 +97,14 @@ absl::Status InsertJourney(PgConnection& connection, const JourneyRecord& record
   arguments.Integer(record.create_time_ns).Integer(record.start_time_ns);
   arguments.Integer(record.end_time_ns).Integer(record.step_count);
   arguments.Integer(record.landmark_count).Integer(record.fingerprint_count);
+  arguments.Text(ToJson(record.settings));
   HOMING_ASSIGN_OR_RETURN(const PgRows inserted,
                           connection.Run(kInsertJourney, arguments, deadline));
-  if (inserted.changed() == 0) {
-    const bool same = FindJourney(connection, record.name, deadline).ok();
-    return absl::AlreadyExistsError(absl::StrCat(
-        "journey '", record.name, "' ",
-        same ? "already exists" : "has the same hash as another one: choose another name"));
-  }
-  PgArguments settings;
-  settings.Integer(JourneyId(record.name)).Text(ToJson(record.settings));
-  return connection.Run(kInsertSettings, settings, deadline).status();
+  if (inserted.changed() > 0) return absl::OkStatus();
+  const bool same = FindJourney(connection, record.name, deadline).ok();
+  return absl::AlreadyExistsError(absl::StrCat(
+      "journey '", record.name, "' ",
+      same ? "already exists" : "has the same hash as another one: choose another name"));
 }
 
 absl::StatusOr<JourneyRecord> FindJourney(PgConnection& connection, const std::string& name,
@@ -171,7 +168,8 @@ absl::StatusOr<std::vector<JourneyMark>> LoadJourneyMarks(PgConnection& connecti
 
 absl::Status DeleteJourneyRow(PgConnection& connection, const std::string& name,
                               Deadline deadline) {
-  // The journey first: its row lock keeps appends away until the end of the transaction.
+  // The journey first: its row lock keeps appends away until the end of the transaction, and the
+  // second statement sees the steps of those that it waited for.
   HOMING_RETURN_IF_ERROR(ChangedOrNotFound(connection.Run(kDelete, KeyOf(name), deadline), name));
   return connection.Run(kDeleteSteps, PgArguments().Integer(JourneyId(name)), deadline).status();
 }

@@ -19,8 +19,7 @@ std::int64_t JourneyId(const std::string& name);
 
 absl::Status JourneyNotFound(const std::string& name);
 
-// Writes the counts too. ALREADY_EXISTS; also for another name of the same hash. REQUIRES: a
-// transaction.
+// Writes the counts too. ALREADY_EXISTS; also for another name of the same hash.
 absl::Status InsertJourney(PgConnection& connection, const JourneyRecord& record,
                            Deadline deadline);
 // NOT_FOUND, DATA_LOSS.
@@ -48,7 +47,7 @@ absl::Status SetJourneyReaders(PgConnection& connection, const std::string& name
 // As JourneyStore::CheckLease.
 absl::Status CheckLeaseRow(PgConnection& connection, const std::string& name,
                            const std::string& writer_id, std::int64_t server_id, Deadline deadline);
-// As JourneyStore::AcquireJourney; returns the epoch. REQUIRES: a transaction.
+// As JourneyStore::AcquireJourney; returns the epoch.
 absl::StatusOr<std::int64_t> AcquireJourneyRow(PgConnection& connection, const std::string& name,
                                                const std::string& writer_id, std::int64_t server_id,
                                                Deadline deadline);

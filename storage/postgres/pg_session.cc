@@ -11,7 +11,7 @@ namespace {
 // A transaction waits so long at most for another one's row; one that a dead server left open ends
 // by itself.
 constexpr char kSettings[] =
-    "SET lock_timeout = '2s'; SET idle_in_transaction_session_timeout = '10s';"
+    "SET lock_timeout = '2s'; SET idle_in_transaction_session_timeout = '3s';"
     " SET client_min_messages = 'warning'";
 // pg_control_checkpoint() still shows the old timeline right after a promotion; the name of the
 // current log file does not.

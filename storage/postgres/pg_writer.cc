@@ -22,19 +22,20 @@ absl::StatusOr<PgConnection*> PgWriter::Connection(Deadline deadline) {
   return connection_.get();
 }
 
-absl::Status PgWriter::WriteOnce(const Body& body, Deadline deadline) {
+absl::Status PgWriter::WriteOnce(Scope scope, const Body& body, Deadline deadline) {
   HOMING_ASSIGN_OR_RETURN(PgConnection* const connection, Connection(deadline));
+  if (scope == Scope::kOneStatement) return body(*connection, deadline);
   HOMING_RETURN_IF_ERROR(connection->Execute("BEGIN", deadline));
   const absl::Status status = body(*connection, deadline);
   const absl::Status ended = connection->Execute(status.ok() ? "COMMIT" : "ROLLBACK", deadline);
   return status.ok() ? ended : status;
 }
 
-absl::Status PgWriter::Write(const Body& body) {
+absl::Status PgWriter::Write(Scope scope, const Body& body) {
   const MutexLock lock(mutex_);
   const Deadline deadline = After(kWriteTime);
   while (true) {
-    const absl::Status status = WriteOnce(body, deadline);
+    const absl::Status status = WriteOnce(scope, body, deadline);
     const bool is_lost = connection_ == nullptr || connection_->is_lost();
     const bool is_again = absl::IsUnavailable(status) && (is_lost || IsConflict(status));
     if (!is_again || After(kRetryPause) > deadline) return status;

@@ -22,16 +22,18 @@ class PgWriter {
   // `database` must outlive it.
   explicit PgWriter(PgDatabase* database) : database_(database) {}
 
-  // Runs `body` in one transaction; again after a lost connection or a conflict, for a while.
-  // `body` must know that its first try may have been committed.
-  absl::Status Write(const Body& body);
+  // Runs `body`; again after a lost connection or a conflict, for a while. `body` must know that
+  // its first try may have been committed. kOneStatement: only one statement of it writes. A server
+  // that is paused then leaves no transaction open, whose row locks would hold up others.
+  enum class Scope { kOneStatement, kTransaction };
+  absl::Status Write(Scope scope, const Body& body);
   // As JourneyStore::AppendSteps.
   std::vector<absl::Status> Append(const std::vector<JourneyAppend>& appends);
   // As PgAppends::Forget.
   void Forget(const std::string& name);
 
  private:
-  absl::Status WriteOnce(const Body& body, Deadline deadline) HOMING_REQUIRES(mutex_);
+  absl::Status WriteOnce(Scope scope, const Body& body, Deadline deadline) HOMING_REQUIRES(mutex_);
   absl::StatusOr<PgConnection*> Connection(Deadline deadline) HOMING_REQUIRES(mutex_);
 
   PgDatabase* const database_;

@@ -23,6 +23,8 @@ namespace {
 
 constexpr int kReaders = 4;
 constexpr std::chrono::milliseconds kOpenTime{15'000};
+constexpr auto kOneStatement = PgWriter::Scope::kOneStatement;
+constexpr auto kTransaction = PgWriter::Scope::kTransaction;
 
 std::int64_t NewServerId() {
   std::random_device random;
@@ -68,9 +70,9 @@ absl::Status PostgresJourneyStore::ProbeWrite() {
   return heartbeat_ ? heartbeat_->Beat() : absl::OkStatus();
 }
 
-absl::Status PostgresJourneyStore::Write(const Body& body) {
+absl::Status PostgresJourneyStore::Write(PgWriter::Scope scope, const Body& body) {
   if (read_only()) return ReadOnlyError();
-  const absl::Status status = writer_.Write(body);
+  const absl::Status status = writer_.Write(scope, body);
   heartbeat_->NoteWrite(status);
   return status;
 }
@@ -92,7 +94,7 @@ absl::Status PostgresJourneyStore::CreateJourney(const JourneyRecord& record) {
   empty.fingerprint_count = 0;
   bool is_repeated = false;
   writer_.Forget(record.name);
-  return Write([&](PgConnection& connection, Deadline deadline) {
+  return Write(kOneStatement, [&](PgConnection& connection, Deadline deadline) {
     const absl::Status status = InsertJourney(connection, empty, deadline);
     if (!std::exchange(is_repeated, true) || !absl::IsAlreadyExists(status)) return status;
     // The first try may have stored it.
@@ -118,7 +120,7 @@ absl::StatusOr<std::vector<JourneyRecord>> PostgresJourneyStore::ListJourneys(
 
 absl::Status PostgresJourneyStore::DeleteJourney(const std::string& name) {
   bool is_repeated = false;
-  return Write([&](PgConnection& connection, Deadline deadline) {
+  return Write(kTransaction, [&](PgConnection& connection, Deadline deadline) {
     const absl::Status status = DeleteJourneyRow(connection, name, deadline);
     // The first try may have deleted it.
     return std::exchange(is_repeated, true) && absl::IsNotFound(status) ? absl::OkStatus() : status;
@@ -126,14 +128,14 @@ absl::Status PostgresJourneyStore::DeleteJourney(const std::string& name) {
 }
 
 absl::Status PostgresJourneyStore::FinishJourney(const std::string& name) {
-  return Write([&](PgConnection& connection, Deadline deadline) {
+  return Write(kOneStatement, [&](PgConnection& connection, Deadline deadline) {
     return FinishJourneyRow(connection, name, deadline);
   });
 }
 
 absl::Status PostgresJourneyStore::SetReaders(const std::string& name,
                                               const std::vector<std::string>& readers) {
-  return Write([&](PgConnection& connection, Deadline deadline) {
+  return Write(kOneStatement, [&](PgConnection& connection, Deadline deadline) {
     return SetJourneyReaders(connection, name, readers, deadline);
   });
 }
@@ -142,7 +144,7 @@ absl::StatusOr<AcquiredJourney> PostgresJourneyStore::AcquireJourney(const std::
                                                                      const std::string& writer_id) {
   AcquiredJourney acquired;
   const absl::Status status =
-      Write([&](PgConnection& connection, Deadline deadline) -> absl::Status {
+      Write(kOneStatement, [&](PgConnection& connection, Deadline deadline) -> absl::Status {
         HOMING_ASSIGN_OR_RETURN(
             acquired.epoch, AcquireJourneyRow(connection, name, writer_id, server_id_, deadline));
         HOMING_ASSIGN_OR_RETURN(acquired.record, FindJourney(connection, name, deadline));
@@ -216,7 +218,7 @@ absl::Status PostgresJourneyStore::ImportJourney(const JourneyRecord& record,
   HOMING_RETURN_IF_ERROR(Validate(record.settings));
   const JourneyRecord finished = FinishedRecord(record, map);
   bool is_repeated = false;
-  return Write([&](PgConnection& connection, Deadline deadline) -> absl::Status {
+  return Write(kTransaction, [&](PgConnection& connection, Deadline deadline) -> absl::Status {
     const absl::Status status = InsertJourney(connection, finished, deadline);
     if (std::exchange(is_repeated, true) && absl::IsAlreadyExists(status)) {
       // The first try may have stored it.
@@ -236,7 +238,7 @@ absl::StatusOr<std::unique_ptr<std::istream>> PostgresJourneyStore::BackUp() {
 }
 
 absl::Status PostgresJourneyStore::CreateModel(const StoredModel& model) {
-  return Write([&](PgConnection& connection, Deadline deadline) {
+  return Write(kOneStatement, [&](PgConnection& connection, Deadline deadline) {
     return InsertModel(connection, model, deadline);
   });
 }

@@ -54,7 +54,7 @@ class PostgresJourneyStore final : public JourneyStore {
   PostgresJourneyStore(const std::string& url, PgConnection::Access access);
   absl::Status Prepare();
   // As PgWriter::Write.
-  absl::Status Write(const Body& body);
+  absl::Status Write(PgWriter::Scope scope, const Body& body);
   // The result of `query` in one read transaction.
   template <typename Result, typename Query>
   absl::StatusOr<Result> ReadOne(Query query);

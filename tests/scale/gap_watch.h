@@ -2,8 +2,8 @@
 #ifndef TESTS_SCALE_GAP_WATCH_H_
 #define TESTS_SCALE_GAP_WATCH_H_
 
-#include <algorithm>
 #include <chrono>
+#include <iostream>
 #include <map>
 #include <string>
 
@@ -26,8 +26,12 @@ class GapWatch {
     const MutexLock lock(mutex_);
     const auto now = Clock::now();
     const auto [last, is_new] = last_.try_emplace(robot, now);
-    if (!is_new && !event_.empty()) {
-      longest_[event_] = std::max(longest_[event_], now - last->second);
+    if (!is_new && !event_.empty() && now - last->second > longest_[event_]) {
+      longest_[event_] = now - last->second;
+      if (longest_[event_] > std::chrono::seconds(4)) {
+        std::cerr << event_ << ": " << std::chrono::duration<double>(longest_[event_]).count()
+                  << " s without an answer for robot " << robot << '\n';
+      }
     }
     last->second = now;
   }
