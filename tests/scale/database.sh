@@ -1,8 +1,8 @@
 #!/bin/sh
 # A PostgreSQL 15 with a synchronous replica, in a folder, for tests/scale.
-# usage: sh database.sh start|failover|stop FOLDER
-# start prints the URL. failover stops the primary as a power failure would, promotes the replica and makes a new
-# replica of it. Both listen on Unix sockets in FOLDER, on ports 5441 and 5442.
+# usage: sh database.sh start|failover|replica|stop FOLDER
+# start prints the URL. failover stops the primary as a power failure would and promotes the replica; replica then makes
+# the old primary a new replica. Both listen on Unix sockets in FOLDER, on ports 5441 and 5442.
 set -eu
 command=$1
 folder=$2
@@ -67,7 +67,10 @@ case $command in
     control "$old" stop -m immediate
     control "$new" promote
     echo "$new" >"$folder/primary"
-    add_replica "$new" "$old"
+    ;;
+  replica)
+    primary=$(cat "$folder/primary")
+    add_replica "$primary" $((10883 - primary))
     ;;
   stop)
     for port in 5441 5442; do

@@ -96,8 +96,11 @@ bool RunRound(int round, SharedDatabase* database, GapWatch* gaps) {
   gaps->SetEvent("database_promoted");
   const bool is_promoted = database->FailOver();
   std::this_thread::sleep_for(kCalm);
+  gaps->SetEvent("replica_added");
+  const bool has_replica = is_promoted && database->AddReplica();
+  std::this_thread::sleep_for(kCalm);
   gaps->SetEvent("");
-  return is_promoted;
+  return has_replica;
 }
 
 void CompareWithUndisturbed(const Programs& programs, const std::string& address,
@@ -156,6 +159,7 @@ void CheckRounds(const Programs& programs, int rounds, faults::Figures* figures)
   figures->AtMost("scale_gap_server_killed_s", gaps.LongestSeconds("server_killed"), 5);
   figures->AtMost("scale_gap_server_paused_s", gaps.LongestSeconds("server_paused"), 10);
   figures->AtMost("scale_gap_database_promoted_s", gaps.LongestSeconds("database_promoted"), 5);
+  figures->AtMost("scale_gap_replica_added_s", gaps.LongestSeconds("replica_added"), 5);
 }
 
 }  // namespace homing::scale

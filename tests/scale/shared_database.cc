@@ -34,6 +34,8 @@ bool SharedDatabase::Start() {
 
 bool SharedDatabase::FailOver() const { return !Run("failover").empty(); }
 
+bool SharedDatabase::AddReplica() const { return !Run("replica").empty(); }
+
 bool SharedDatabase::StartServers(int count) {
   for (int i = 0; i < count; ++i) {
     servers_.push_back(std::make_unique<faults::ServerUnderTest>(

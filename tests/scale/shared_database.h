@@ -21,6 +21,8 @@ class SharedDatabase {
   bool Start();
   // Stops the primary at once and promotes the replica. False: it failed.
   bool FailOver() const;
+  // Makes a new replica of the promoted one. False: it failed.
+  bool AddReplica() const;
   const std::string& url() const { return url_; }
   // Starts `count` servers on it. False: one does not start.
   bool StartServers(int count);
