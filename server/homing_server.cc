@@ -29,7 +29,7 @@ namespace homing::server {
 namespace {
 
 // The shortest interval at which clients may ping.
-constexpr int kMinPingIntervalMs = 1'000;
+constexpr int kMinPingIntervalMs = 500;
 // Time for the streams of a connection that has become too old.
 constexpr int kAgeGraceMs = 10'000;
 // Above --max-streams as a rule, since a stream over that is refused with a reason, while one over

@@ -159,7 +159,7 @@ void CheckRounds(const Programs& programs, int rounds, faults::Figures* figures)
   figures->AtMost("scale_gap_server_killed_s", gaps.LongestSeconds("server_killed"), 5);
   figures->AtMost("scale_gap_server_paused_s", gaps.LongestSeconds("server_paused"), 10);
   figures->AtMost("scale_gap_database_promoted_s", gaps.LongestSeconds("database_promoted"), 5);
-  figures->AtMost("scale_gap_replica_added_s", gaps.LongestSeconds("replica_added"), 5);
+  figures->AtMost("scale_gap_replica_added_s", gaps.LongestSeconds("replica_added"), 10);
 }
 
 }  // namespace homing::scale

@@ -21,7 +21,7 @@ using Clock = std::chrono::steady_clock;
 // More than two processors can serve, so that the figure is the server's.
 constexpr int kRobots = 300;
 constexpr int kRate = 100;
-constexpr int kBatch = 256;
+constexpr int kBatch = 1024;
 
 double Median(std::vector<double> values) {
   std::sort(values.begin(), values.end());
