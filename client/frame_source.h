@@ -66,6 +66,9 @@ class FrameSource {
   virtual std::optional<Camera> camera() const { return std::nullopt; }
 };
 
+// Whether it is the address of a camera: rtsp:// or http://, also encrypted.
+bool IsNetworkSource(const std::string& source);
+
 // Checks that the text names a source, without opening it. INVALID_ARGUMENT.
 absl::Status CheckSourceText(const std::string& source);
 

@@ -99,7 +99,8 @@ class ImageFolder : public FrameSource {
 
   absl::StatusOr<std::optional<SourceFrame>> Next() override {
     if (next_ >= images_.paths.size()) return std::optional<SourceFrame>();
-    const std::string& path = images_.paths[next_++];
+    const std::size_t index = next_++;
+    const std::string& path = images_.paths[index];
     absl::StatusOr<SourceFrame> frame = ReadImage(path);
     // Without the module that reads it, every file would be skipped.
     if (absl::IsUnimplemented(frame.status())) return frame.status();
@@ -116,6 +117,7 @@ class ImageFolder : public FrameSource {
       return Faulty(absl::StrCat(path, " is ", SizeText(gray->cols, gray->rows),
                                  " pixels, the first image ", SizeText(width_, height_)));
     }
+    if (!images_.times_ns.empty()) frame->capture_time_ns = images_.times_ns[index];
     return std::make_optional(*std::move(frame));
   }
   std::int64_t size() const override { return static_cast<std::int64_t>(images_.paths.size()); }
@@ -124,7 +126,10 @@ class ImageFolder : public FrameSource {
     next_ = static_cast<std::size_t>(index);
     return true;
   }
-  FrameKeys keys() const override { return KeysOfNames(images_.paths); }
+  FrameKeys keys() const override {
+    if (images_.times_ns.empty()) return KeysOfNames(images_.paths);
+    return {FrameKeys::Kind::kTime, images_.times_ns};
+  }
   std::string remark() const override {
     std::string remark;
     if (images_.hidden > 0) absl::StrAppend(&remark, images_.hidden, " hidden files left out");

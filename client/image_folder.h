@@ -2,6 +2,7 @@
 #ifndef CLIENT_IMAGE_FOLDER_H_
 #define CLIENT_IMAGE_FOLDER_H_
 
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
@@ -13,6 +14,8 @@ namespace homing::client {
 
 struct ImageList {
   std::vector<std::string> paths;
+  // When each was captured, ascending, nanoseconds; empty: as the names say.
+  std::vector<std::int64_t> times_ns = {};
   // Hidden files with an image's name, left out.
   int hidden = 0;
   // Image files of a kind that cannot be read, left out: .heic and the like.

@@ -120,6 +120,16 @@ bool HasImageEnding(const std::string& path) {
                      [&](const char* ending) { return absl::EndsWith(lower, ending); });
 }
 
+std::optional<std::int64_t> ParseTime(const std::string& text) {
+  const auto decimal = ParseDecimal(text);
+  if (!decimal) return std::nullopt;
+  std::int64_t value = 0;
+  const bool whole = !decimal->has_point && absl::SimpleAtoi(text, &value);
+  const std::int64_t unit = whole ? UnitOfClock(value) : 0;
+  if (unit == 0) return Nanoseconds(*decimal);
+  return value * unit;
+}
+
 bool NaturalLess(const std::string& a, const std::string& b) {
   std::size_t i = 0;
   std::size_t j = 0;

@@ -2,6 +2,8 @@
 #ifndef CLIENT_IMAGE_NAMES_H_
 #define CLIENT_IMAGE_NAMES_H_
 
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,6 +13,10 @@ namespace homing::client {
 
 // Whether the name ends as image files do that can be read.
 bool HasImageEnding(const std::string& path);
+
+// Nanoseconds: a decimal number is seconds; a whole number of 12 digits and more is milliseconds,
+// microseconds or nanoseconds by its size, a smaller one seconds. std::nullopt: no number.
+std::optional<std::int64_t> ParseTime(const std::string& text);
 
 // Numbers inside names count as numbers: 2.png before 10.png.
 bool NaturalLess(const std::string& a, const std::string& b);

@@ -105,11 +105,13 @@ void AddRobotFlags(CLI::App& command, RobotFlags& flags) {
       absl::StrCat("Calibrated camera, ", kCameraForm,
                    ": pixels and radians, or camera_info of ROS, kalibr or OpenCV");
   command
-      .add_option("--left", flags.left,
-                  "SOURCE of the robot's left camera: a folder or glob of images in natural order, "
-                  "a video file, a camera /dev/videoN, a bag FILE.mcap, FILE.bag or FILE.db3 with "
-                  "#TOPIC behind it where "
-                  "it has several, or sim:SCENE[,key=value...]")
+      .add_option(
+          "--left", flags.left,
+          "SOURCE of the robot's left camera: a folder or glob of images in natural order, "
+          "a list of images with times (.txt, .csv), a video file, a camera /dev/videoN or N, an "
+          "address rtsp://... or http://..., a bag FILE.mcap, FILE.bag or FILE.db3 with "
+          "#TOPIC behind it where "
+          "it has several, or sim:SCENE[,key=value...]")
       ->check(check_source);
   command.add_option("--right", flags.right, "SOURCE of the robot's right camera")
       ->check(check_source);

@@ -37,6 +37,14 @@ std::int64_t NowNanoseconds() {
       .count();
 }
 
+// An address without the name and password in it: texts end up in logs.
+std::string Shown(const std::string& path) {
+  const std::size_t scheme = path.find("://");
+  const std::size_t at = scheme == std::string::npos ? scheme : path.find('@', scheme);
+  if (at == std::string::npos || path.find('/', scheme + 3) < at) return path;
+  return path.substr(0, scheme + 3) + path.substr(at + 1);
+}
+
 // Grey: the method needs no more, and colour is three times as large to send.
 SourceFrame ToFrame(const cv::Mat& image) {
   cv::Mat gray = image;
@@ -61,22 +69,18 @@ class VideoSource : public FrameSource {
     try {
       const bool device = absl::StartsWith(path_, "/dev/video");
       capture_.open(path_, device ? cv::CAP_ANY : cv::CAP_FFMPEG);
-      if (!capture_.isOpened()) {
-        return absl::InvalidArgumentError(absl::StrCat(
-            path_,
-            " is no readable video or camera; give a video file, a folder of images, or a "
-            "glob of images in quotes"));
-      }
+      if (!capture_.isOpened()) return NotOpened();
       if (!capture_.read(first_) || first_.empty()) {
-        return absl::InvalidArgumentError(absl::StrCat(path_, " has no frames"));
+        return absl::InvalidArgumentError(absl::StrCat(Shown(path_), " has no frames"));
       }
       promised_ = std::max<std::int64_t>(0, std::llround(capture_.get(cv::CAP_PROP_FRAME_COUNT)));
       fps_ = capture_.get(cv::CAP_PROP_FPS);
     } catch (const cv::Exception& e) {
-      return absl::InvalidArgumentError(absl::StrCat(path_, ": ", e.what()));
+      return absl::InvalidArgumentError(absl::StrCat(Shown(path_), ": ", e.what()));
     }
     if (first_.depth() != CV_8U || (first_.channels() != 1 && first_.channels() != 3)) {
-      return absl::InvalidArgumentError(absl::StrCat(path_, " has frames that are not 8 bit"));
+      return absl::InvalidArgumentError(
+          absl::StrCat(Shown(path_), " has frames that are not 8 bit"));
     }
     next_ = 0;
     gap_ = false;
@@ -120,10 +124,22 @@ class VideoSource : public FrameSource {
         ReadOn(&image);
       }
     } catch (const cv::Exception& e) {
-      return absl::InvalidArgumentError(absl::StrCat(path_, ": ", e.what()));
+      return absl::InvalidArgumentError(absl::StrCat(Shown(path_), ": ", e.what()));
     }
     if (!image.empty()) ++next_;
     return image;
+  }
+
+  absl::Status NotOpened() const {
+    if (absl::StrContains(path_, "://")) {
+      return absl::NotFoundError(absl::StrCat(
+          Shown(path_),
+          " gives no video; check the address, the name and password in it, and the camera"));
+    }
+    return absl::InvalidArgumentError(absl::StrCat(
+        path_,
+        " is no readable video or camera; give a video file, a folder of images, or a glob of "
+        "images in quotes"));
   }
 
   // A video continues behind a damaged part: while frames are missing, a failed read is not the
@@ -144,13 +160,13 @@ class VideoSource : public FrameSource {
     if (live_) {
       std::error_code error;
       if (std::filesystem::is_fifo(path_, error)) return absl::OkStatus();
-      return absl::DataLossError(absl::StrCat(path_, " gives no more frames"));
+      return absl::DataLossError(absl::StrCat(Shown(path_), " gives no more frames"));
     }
     const double promised = static_cast<double>(promised_);
     const bool by_count = static_cast<double>(next_) >= 0.98 * promised - 2;
     const bool by_time = fps() > 0 && last_ms_ >= (0.98 * promised - 2) * 1000 / fps();
     if (by_count || by_time) return absl::OkStatus();
-    return absl::DataLossError(absl::StrCat(path_, " is damaged: only ", next_, " of its ",
+    return absl::DataLossError(absl::StrCat(Shown(path_), " is damaged: only ", next_, " of its ",
                                             promised_, " frames can be read"));
   }
 
