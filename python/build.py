@@ -1,9 +1,11 @@
 """Makes the wheel. usage: python3 build.py SOURCE BUILD VERSION PROTO_DIR PROTOC GRPC_PLUGIN
 
 SOURCE is this folder. BUILD gets package/ (sources and generated code), dist/ (the wheel) and
-installed/ (the wheel's contents).
+installed/ (the wheel's contents) and homing-vda5050.1.gz (its man page, from --help).
 """
 
+import gzip
+import importlib
 import os
 import pathlib
 import shutil
@@ -12,6 +14,18 @@ import sys
 import zipfile
 
 import setuptools.build_meta
+
+
+def man_page(parser, version: str) -> str:
+    def escaped(text: str) -> str:
+        return text.replace("\\", "\\e").replace("-", "\\-").replace("'", "\\(aq")
+
+    summary = parser.description.splitlines()[0].rstrip(".")
+    lines = [("\\&" if line.startswith(".") else "") + escaped(line)
+             for line in parser.format_help().splitlines()]
+    return "\n".join([f'.TH {parser.prog.upper()} 1 "" "homing {version}" "User Commands"',
+                      ".SH NAME", f"{escaped(parser.prog)} \\- {escaped(summary[0].lower() + summary[1:])}",
+                      ".SH DESCRIPTION", ".nf", *lines, ".fi", ".SH SEE ALSO", "homing(1)", ""])
 
 
 def main() -> None:
@@ -34,8 +48,15 @@ def main() -> None:
     os.environ.setdefault("SOURCE_DATE_EPOCH", "315532800")
     os.chdir(package)
     wheel = setuptools.build_meta.build_wheel(os.path.relpath(dist, package))
+    installed = pathlib.Path(build) / "installed"
     with zipfile.ZipFile(dist / wheel) as file:
-        file.extractall(pathlib.Path(build) / "installed")
+        file.extractall(installed)
+    sys.dont_write_bytecode = True
+    sys.path.insert(0, str(installed))
+    os.environ["COLUMNS"] = "90"
+    parser = importlib.import_module("homing.vda5050").make_parser()
+    page = gzip.compress(man_page(parser, version).encode(), mtime=0)
+    (pathlib.Path(build) / "homing-vda5050.1.gz").write_bytes(page)
 
 
 if __name__ == "__main__":

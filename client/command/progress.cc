@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "absl/strings/str_cat.h"
+#include "absl/strings/str_format.h"
 
 namespace homing::client {
 namespace {
@@ -24,23 +25,46 @@ Progress::~Progress() {
 }
 
 void Progress::Set(std::int64_t done) {
-  done_ = done;
   const auto now = std::chrono::steady_clock::now();
+  // What was done before, as after a restart, says nothing about the rate.
+  if (first_ < 0) {
+    first_ = done;
+    begun_ = now;
+  }
+  done_ = done;
   if (!visible_ || now - drawn_ < std::chrono::milliseconds(100)) return;
   drawn_ = now;
   Draw();
 }
 
 void Progress::Draw() {
-  std::string line = absl::StrCat("\r", title_, " ");
-  if (total_ > 0) {
-    const auto filled = static_cast<std::size_t>(kBarWidth * std::min(done_, total_) / total_);
+  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begun_;
+  std::fputs(
+      absl::StrCat("\r", ProgressText(title_, done_ - first_, done_, total_, elapsed.count()),
+                   "\033[K")
+          .c_str(),
+      stderr);
+}
+
+std::string ProgressText(const std::string& title, std::int64_t worked, std::int64_t done,
+                         std::int64_t total, double seconds) {
+  std::string line = title + " ";
+  if (total > 0) {
+    const auto filled = static_cast<std::size_t>(kBarWidth * std::min(done, total) / total);
     absl::StrAppend(&line, "[", std::string(filled, '#'), std::string(kBarWidth - filled, '.'),
-                    "] ", done_, "/", total_);
+                    "] ", done, "/", total);
   } else {
-    absl::StrAppend(&line, done_);
+    absl::StrAppend(&line, done);
   }
-  std::fputs((line + "\033[K").c_str(), stderr);
+  // Before, the rate is that of the first buffers.
+  if (seconds < 1 || worked <= 0) return line;
+  const double rate = static_cast<double>(worked) / seconds;
+  absl::StrAppendFormat(&line, "  %.1f/s", rate);
+  if (total > done) {
+    const auto left = static_cast<std::int64_t>(static_cast<double>(total - done) / rate + 0.5);
+    absl::StrAppendFormat(&line, "  %d:%02d left", left / 60, left % 60);
+  }
+  return line;
 }
 
 }  // namespace homing::client

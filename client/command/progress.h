@@ -8,6 +8,11 @@
 
 namespace homing::client {
 
+// "recording [####....] 12/48  9.8/s  0:04 left": `done` of `total` (-1: not known), of which
+// `worked` in the last `seconds`.
+std::string ProgressText(const std::string& title, std::int64_t worked, std::int64_t done,
+                         std::int64_t total, double seconds);
+
 // Not thread-safe.
 class Progress {
  public:
@@ -27,6 +32,9 @@ class Progress {
   std::int64_t total_;
   bool visible_;
   std::int64_t done_ = 0;
+  // Done when it was set first; -1: not yet.
+  std::int64_t first_ = -1;
+  std::chrono::steady_clock::time_point begun_{};
   std::chrono::steady_clock::time_point drawn_{};
 };
 

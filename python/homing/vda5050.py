@@ -101,14 +101,18 @@ def fragments(lines: Iterable[str], poses: List[Pose], map_id: str = "",
             yield fragment(json.loads(line), poses, map_id, map_version)
 
 
-def main(arguments: Optional[List[str]] = None, source: TextIO = sys.stdin,
-         target: TextIO = sys.stdout) -> int:
+def make_parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(prog="homing-vda5050", description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--poses", metavar="FILE.csv", help="poses of steps: step,x,y,theta")
     parser.add_argument("--map-id", default="", help="mapId [the journey's name with dots]")
     parser.add_argument("--map-version", default="1", help="mapVersion [1]")
-    flags = parser.parse_args(arguments)
+    return parser
+
+
+def main(arguments: Optional[List[str]] = None, source: TextIO = sys.stdin,
+         target: TextIO = sys.stdout) -> int:
+    flags = make_parser().parse_args(arguments)
     poses: List[Pose] = []
     try:
         if flags.poses:
