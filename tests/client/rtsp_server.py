@@ -19,7 +19,8 @@ server.set_address("127.0.0.1")
 server.set_service("0")
 factory = GstRtspServer.RTSPMediaFactory()
 factory.set_launch("( videotestsrc is-live=true pattern=ball ! "
-                   "video/x-raw,width=320,height=240,framerate=20/1 ! jpegenc ! rtpjpegpay name=pay0 )")
+                   "video/x-raw,format=I420,width=320,height=240,framerate=20/1 ! "
+                   "jpegenc ! rtpjpegpay name=pay0 )")
 server.get_mount_points().add_factory("/camera", factory)
 server.attach(None)
 print(f"rtsp://127.0.0.1:{server.get_bound_port()}/camera", flush=True)
