@@ -67,7 +67,7 @@ class __attribute__((visibility("hidden"))) Localizer::State {
   }
 
   absl::Status Take(const v1::LocalizeResponse& answer) {
-    const absl::Status dropped = buffer_->Acknowledge(answer.sequence() + 1, answer.sequence() + 1);
+    absl::Status dropped = buffer_->Acknowledge(answer.sequence() + 1, answer.sequence() + 1);
     const MutexLock lock(mutex_);
     last_ = FromMessage(answer);
     changed_.NotifyAll();

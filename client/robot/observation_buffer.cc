@@ -91,12 +91,13 @@ absl::Status ObservationBuffer::Acknowledge(std::int64_t durable, std::int64_t r
   const MutexLock lock(mutex_);
   if (durable <= durable_) return absl::OkStatus();
   durable_ = durable;
-  const auto done = [&](const StoredObservation& observation) {
+  std::int64_t from_memory = 0;
+  std::erase_if(memory_, [&](const StoredObservation& observation) {
     const bool drop = observation.sequence < durable && observation.sequence != reference;
-    if (drop) memory_bytes_ -= SizeOf(observation);
+    if (drop) from_memory += SizeOf(observation);
     return drop;
-  };
-  std::erase_if(memory_, done);
+  });
+  memory_bytes_ -= from_memory;
   // The file has nothing to drop while all waits in memory.
   if (!file_ || file_bytes_ == 0) return absl::OkStatus();
   HOMING_ASSIGN_OR_RETURN(const std::int64_t dropped, file_->DropBefore(durable, reference));

@@ -2,6 +2,8 @@
 #ifndef CLIENT_ROBOT_OBSERVATION_FILE_H_
 #define CLIENT_ROBOT_OBSERVATION_FILE_H_
 
+#include <SQLiteCpp/Database.h>
+
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -9,10 +11,6 @@
 #include <string>
 
 #include "absl/status/statusor.h"
-
-namespace SQLite {
-class Database;
-}
 
 namespace homing::robot {
 

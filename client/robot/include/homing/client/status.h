@@ -49,9 +49,9 @@ class [[nodiscard]] Status {
 template <typename T>
 class [[nodiscard]] Result {
  public:
-  // REQUIRES: !status.ok().
-  Result(Status status) : status_(std::move(status)) {}
-  Result(T value) : value_(std::move(value)) {}
+  // Implicit, so that a function returns either. REQUIRES: !status.ok().
+  Result(Status status) : status_(std::move(status)) {}  // NOLINT(google-explicit-constructor)
+  Result(T value) : value_(std::move(value)) {}          // NOLINT(google-explicit-constructor)
 
   bool ok() const { return value_.has_value(); }
   const Status& status() const { return status_; }
