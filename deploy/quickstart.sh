@@ -115,6 +115,10 @@ count=$(find "$frames" -maxdepth 1 -type f | wc -l)
 pair=$(find "$frames" -maxdepth 1 -type f | sort -V | sed -n "$((count / 2)),$((count / 2 + 1))p" | paste -sd ,)
 
 homing draw --journey "$journey" --out "$out/journey.png"
+if [ -n "$out_drive" ]; then
+  # Another street, and a robot that steers by the answers.
+  homing drive --scene street,length=60,fps=10,seed=7 --journey robots/quickstart/journeys/driven --out "$out"
+fi
 homing draw --left "$pair" --histogram --out "$out/flow.png"
 if [ -n "$out_drive" ]; then
   homing evaluate --answers "$out/home.json" --out "$out" --require 0.95 \
@@ -122,5 +126,5 @@ if [ -n "$out_drive" ]; then
 else
   homing evaluate --answers "$out/home.json" --out "$out" || status=$?
 fi
-echo "pictures: $out/way_home.png (believed place), $out/journey.png (the map), $out/flow.png (flow vectors and landmarks)"
+echo "pictures: $out/way_home.png (believed place), ${out_drive:+$out/drive.png (driven home by the answers), }$out/journey.png (the map), $out/flow.png (flow vectors and landmarks)"
 exit "${status:-0}"

@@ -15,6 +15,8 @@ constexpr double kMostDrift = 0.3;
 // Turned round: this near, rad; slower from here on.
 constexpr double kTurnedRound = 0.05;
 constexpr double kTurnSlowly = 0.5;
+// How fast the offsets correct the heading, 1/m.
+constexpr double kWatch = 0.25;
 constexpr double kLeastSpeedMps = 0.15;
 // Slows down towards home: m/s for each metre left.
 constexpr double kSpeedPerM = 0.5;
@@ -93,11 +95,30 @@ void Pilot::TakePlace(const PilotAnswer& answer) {
   const Belief expected = Carried(known_, answer_time_s_, answer.time_s);
   is_sure_ = answer.outcome == PilotAnswer::Outcome::kMatch;
   if (state_ == State::kTurningRound || answer.time_s < round_s_) return;
+  Watch(answer, expected);
   known_.offset_m =
       answer.path_offset ? *answer.path_offset * options_.distance_m : expected.offset_m;
   known_.remaining_m = answer.progress_home && is_sure_
                            ? (1 - *answer.progress_home) * options_.route_m
                            : expected.remaining_m;
+}
+
+// Where the offsets run away from what the heading makes them, the heading is wrong: turns were
+// lost.
+void Pilot::Watch(const PilotAnswer& answer, const Belief& expected) {
+  if (!answer.path_offset) {
+    is_watching_ = false;
+    return;
+  }
+  const double offset_m = *answer.path_offset * options_.distance_m;
+  if (!is_watching_) watched_m_ = offset_m;
+  is_watching_ = true;
+  watched_m_ += expected.offset_m - known_.offset_m;
+  // Signed: in reverse a heading moves the robot the other way.
+  const double driven_m = Ahead() * (known_.remaining_m - expected.remaining_m);
+  const double off_m = offset_m - watched_m_;
+  watched_m_ += 2 * kWatch * std::abs(driven_m) * off_m;
+  known_.heading += kWatch * kWatch * driven_m * off_m;
 }
 
 PilotCommand Pilot::Drive(double now_s) {

@@ -106,6 +106,7 @@ class Pilot {
   // The belief of time `from_s` carried on.
   Belief Carried(const Belief& belief, double from_s, double to_s) const;
   void TakeTurn(const PilotAnswer& answer);
+  void Watch(const PilotAnswer& answer, const Belief& expected);
   void TakePlace(const PilotAnswer& answer);
   PilotCommand TurnRound();
   PilotCommand FollowPath(double speed_mps) const;
@@ -133,6 +134,9 @@ class Pilot {
   // Driven since the pilot was last sure, m.
   double unsure_m_ = 0;
   double searched_m_ = 0;
+  // Metres left of the path as the heading has them, held near what the answers say.
+  double watched_m_ = 0;
+  bool is_watching_ = false;
   // Turn rate that nobody commanded: slip, and the path's own bends.
   double drift_ = 0;
   // What the actuators do now.

@@ -1,5 +1,8 @@
 #include "homing/localization/path_pose.h"
 
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -41,10 +44,27 @@ constexpr double kFullWeight = 0.10;
 constexpr double kLeastDriven = 0.003;
 constexpr double kLeastOfTurn = 0.15;
 constexpr double kDrivenAtStart = 0.06;
+// Error of a turn that is read against the map: rad, and a share of the distance driven, in
+// distances of what is seen.
+constexpr double kMapTurn = 0.002;
+constexpr double kMapTurnError = 0.1;
+// Sharpest bend of a path, rad for a distance of what is seen.
+constexpr double kMostBend = 0.3;
+// Stored flow, rad, and steps that are too little to divide by; how fast what was before follows.
+constexpr double kLeastStored = 0.004;
+constexpr double kLeastSteps = 0.2;
+constexpr double kFollow = 0.3;
+// Of the vertical flow, pixels: at first, and at least.
+constexpr double kFirstNoisePx = 1.0;
+constexpr double kLeastNoisePx = 0.1;
 // Opposite sideways flows that differ by less say nothing of the motion, pixels.
 constexpr double kLeastAdvancePx = 1;
 
 std::size_t At(Side side) { return static_cast<std::size_t>(side); }
+
+double Middle(double a, double b, double c) {
+  return std::max(std::min(a, b), std::min(std::max(a, b), c));
+}
 
 // Of the cells.
 double ShareOf(const CellMask& covered) {
@@ -105,9 +125,17 @@ bool PathPoseFilter::Predict(const JourneyMap& map, std::int64_t step, const Obs
   const double advance = then[1] - then[0];
   const double focal = FocalOf(0, flow.fields[0]->width);
   if (std::abs(advance) * focal < kLeastAdvancePx) return false;
+  const Turning vertical = VerticalTurn(flow);
+  const Advance moved = AdvanceOf(now, then, vertical.turn);
+  driven_ = 0.5 * moved.steps * advance * (travel_ == Travel::kReturn ? -1 : 1);
+  const double by_vertical = vertical.turn - moved.steps * moved.bend;
+  // A turn that is read against the map alone.
   const double ratio = (now[1] - now[0]) / advance;
-  driven_ = 0.5 * (now[1] - now[0]) * (travel_ == Travel::kReturn ? -1 : 1);
-  turned_ = 0.5 * (now[0] + now[1] - ratio * (then[0] + then[1])) + driven_ * pose_.offset;
+  const double by_map =
+      0.5 * (now[0] + now[1] - ratio * (then[0] + then[1])) + driven_ * pose_.offset;
+  const double map_variance = kMapTurn * kMapTurn + std::pow(kMapTurnError * driven_, 2);
+  const double share = map_variance / (map_variance + vertical.variance);
+  turned_ = by_map + share * (by_vertical - by_map);
   pose_.heading = std::clamp(pose_.heading + turned_, -kMostHeading, kMostHeading);
   pose_.offset = std::clamp(pose_.offset + driven_ * pose_.heading, -kMostOffset, kMostOffset);
   // The heading takes up the offset's error, and the offset the heading's.
@@ -135,10 +163,82 @@ void PathPoseFilter::Turn(double turned) {
 void PathPoseFilter::Forget() {
   is_started_ = false;
   driven_since_lost_ = 0;
+  advance_.reset();
   pose_.offset = 0;
   offset_variance_ = kFirstOffset * kFirstOffset;
   heading_variance_ = kFirstHeading * kFirstHeading;
   covariance_ = 0;
+}
+
+// Without the turn, each side's flow is the stored one, less what the path's own bend put into it,
+// times the steps advanced. Where something has gone, one side is wrong, and the other agrees with
+// what was before: the middle one of three.
+PathPoseFilter::Advance PathPoseFilter::AdvanceOf(const std::array<double, 2>& now,
+                                                  const std::array<double, 2>& then, double turn) {
+  std::array<double, 2> moved{};
+  for (const Side side : {Side::kLeft, Side::kRight}) {
+    // What is nearer moves faster.
+    const double left = travel_ == Travel::kReturn ? -pose_.offset : pose_.offset;
+    const double nearer = side == Side::kLeft ? left : -left;
+    moved[At(side)] = (now[At(side)] - turn) * (1 - nearer);
+  }
+  const double mean = (moved[1] - moved[0]) / (then[1] - then[0]);
+  if (!advance_) advance_ = Advance{.steps = mean, .bend = 0};
+  const auto steps_of = [&](std::size_t side) {
+    const double stored = then[side] - advance_->bend;
+    return std::abs(stored) > kLeastStored ? moved[side] / stored : mean;
+  };
+  Advance result;
+  result.steps = Middle(steps_of(0), steps_of(1), advance_->steps);
+  if (std::abs(result.steps) > kLeastSteps) {
+    result.bend = Middle(then[0] - moved[0] / result.steps, then[1] - moved[1] / result.steps,
+                         advance_->bend);
+    const double most = kMostBend * 0.5 * std::abs(then[1] - then[0]);
+    result.bend = std::clamp(result.bend, -most, most);
+  }
+  advance_->steps += kFollow * (result.steps - advance_->steps);
+  advance_->bend += kFollow * (result.bend - advance_->bend);
+  return result;
+}
+
+PathPoseFilter::Turning PathPoseFilter::VerticalTurn(const ObservedFlow& flow) const {
+  double weight = 0, sum = 0;
+  for (std::size_t camera = 0; camera < 2; ++camera) {
+    const FlowField& field = *flow.fields[camera];
+    const auto& in = cameras_[camera].intrinsics;
+    const double focal = FocalOf(camera, field.width);
+    const double center_x = in ? in->center_x : 0.5 * (field.width - 1);
+    const double center_y = in ? in->center_y : 0.5 * (field.height - 1);
+    // v = turn x y + tilt (1 + y^2) - roll x, in focal lengths; then again without what lies far
+    // off.
+    Eigen::Vector3d fit = Eigen::Vector3d::Zero();
+    double noise = kFirstNoisePx / focal;
+    for (int pass = 0; pass < 3; ++pass) {
+      Eigen::Matrix3d normal = 1e-9 * Eigen::Matrix3d::Identity();
+      Eigen::Vector3d right = Eigen::Vector3d::Zero();
+      double squares = 0;
+      int used = 0;
+      for (const FlowVector& v : field.vectors) {
+        const double x = (v.MidX() - center_x) / focal, y = (v.MidY() - center_y) / focal;
+        const Eigen::Vector3d row(x * y, 1 + y * y, -x);
+        const double error = v.FlowY() / focal - row.dot(fit);
+        if (!(std::abs(error) < 3 * noise)) continue;
+        normal += row * row.transpose();
+        right += row * (v.FlowY() / focal);
+        squares += error * error;
+        ++used;
+      }
+      if (used < OdometerReading::kLeastVectors) return {};
+      fit = normal.ldlt().solve(right);
+      if (pass > 0) noise = std::max(kLeastNoisePx / focal, std::sqrt(squares / used));
+      if (pass == 2) {
+        const double variance = noise * noise * normal.inverse()(0, 0);
+        weight += 1 / variance;
+        sum += fit[0] / variance;
+      }
+    }
+  }
+  return {sum / weight, 1 / weight};
 }
 
 // A turn to the left moves what is seen to higher x, in both cameras.

@@ -60,6 +60,22 @@ class PathPoseFilter {
   PathPose deviation() const;
 
  private:
+  // What the vertical flow says of the turn, rad to the left: driving along the heading moves
+  // nothing up or down in cameras that look across, a turn does.
+  struct Turning {
+    double turn = 0;
+    double variance = 1;
+  };
+  // Steps advanced, negative towards home, and the path's own turn at each, rad to the left of the
+  // outbound robot.
+  struct Advance {
+    double steps = 0;
+    double bend = 0;
+  };
+  // By side of the route: sideways flow now and at the step, rad.
+  Advance AdvanceOf(const std::array<double, 2>& now, const std::array<double, 2>& then,
+                    double turn);
+  Turning VerticalTurn(const ObservedFlow& flow) const;
   // Pixels.
   double FocalOf(std::size_t camera, int width) const;
   FlowField Turned(const FlowField& field, std::size_t camera, double heading) const;
@@ -78,6 +94,8 @@ class PathPoseFilter {
   double offset_variance_;
   double heading_variance_;
   double covariance_ = 0;
+  // As it has been lately.
+  std::optional<Advance> advance_;
   // Of the last observation: to the left, rad; ahead, distances of what is seen.
   double turned_ = 0;
   double driven_ = 0;
