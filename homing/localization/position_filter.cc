@@ -14,10 +14,13 @@ namespace {
 constexpr double kNoMass = 1e-12;
 // Evidence of an observation: steps moved over correlation length, times this.
 constexpr double kEvidencePerLength = 1.5;
-// Log odds an observation of full weight, for each tenth of shared change; this is bounded.
+// Log odds an observation of full weight: for each unit of shared change, which is bounded, and of
+// the fit where the robot was expected, as a part of the most evidence there is; at most one unit.
 constexpr double kMembershipGain = 0.5;
 constexpr double kSharedUnit = 0.1;
 constexpr double kMostShared = 2;
+constexpr double kUsualFit = 0.35;
+constexpr double kFitUnit = 0.4;
 // Steps around the believed one that count for it, correlation lengths.
 constexpr double kNearSteps = 1;
 // The active window holds steps of at least this mass. It is used while the robot is on the route
@@ -208,21 +211,21 @@ double PositionFilter::WeightOfObservation(double moved) const {
   return std::clamp(kEvidencePerLength * moved / length, 0.01, 1.0);
 }
 
-void PositionFilter::AddMembership(std::span<const JourneyRef> journeys, double moved,
-                                   double weight) {
-  const auto length_of = [this](std::size_t i) {
-    return profile_likelihood_.routes()[i].correlation_steps;
-  };
-  const auto half = std::max<std::int64_t>(1, std::lround(kNearSteps * length_of(0)));
+std::optional<double> PositionFilter::SharedBy(std::span<const JourneyRef> journeys, double moved) {
+  const double length = profile_likelihood_.routes()[0].correlation_steps;
+  const auto half = std::max<std::int64_t>(1, std::lround(kNearSteps * length));
   const auto [journey, window] = FindBest(half);
   moved_ += moved;
   BelievedInstant now = profile_likelihood_.Believed(journey, window.first, window.last);
   now.moved = moved_;
-  const auto shared = shared_change_.Add(journeys, profile_likelihood_.routes(), now);
-  if (shared) {
-    membership_.Add(kMembershipGain * weight *
-                    std::clamp(*shared / kSharedUnit, -kMostShared, kMostShared));
-  }
+  return shared_change_.Add(journeys, profile_likelihood_.routes(), now);
+}
+
+void PositionFilter::AddMembership(double weight, std::optional<double> shared, double fit) {
+  const double most = ProfileRatio::kMostEvidence * weight * profile_likelihood_.compared();
+  double evidence = std::clamp((std::log(fit) / most - kUsualFit) / kFitUnit, -1.0, 1.0);
+  if (shared) evidence += std::clamp(*shared / kSharedUnit, -kMostShared, kMostShared);
+  membership_.Add(kMembershipGain * weight * evidence);
 }
 
 void PositionFilter::CorrectByProfiles(std::span<const JourneyRef> journeys,
@@ -231,9 +234,10 @@ void PositionFilter::CorrectByProfiles(std::span<const JourneyRef> journeys,
                            .value_or(std::min(1.0, speed_.absolute));
   const double weight = WeightOfObservation(moved);
   profile_likelihood_.Compute(journeys, profiles, masses_, weight);
-  membership_.Fit(MeanFactor([this](std::size_t i) { return profile_likelihood_.of(i); }));
+  const double fit = MeanFactor([this](std::size_t i) { return profile_likelihood_.of(i); });
+  membership_.Fit(fit);
   Weigh(journeys, profiles, [this](std::size_t i) { return profile_likelihood_.of(i); });
-  AddMembership(journeys, moved, weight);
+  AddMembership(weight, SharedBy(journeys, moved), fit);
   profile_likelihood_.Learn();
   has_offset_ = true;
   FocusIfKnown();

@@ -115,8 +115,10 @@ class PositionFilter {
   // What this observation may say that the ones before have not: the steps that the robot has moved
   // over the correlation length of the map. (0, 1].
   double WeightOfObservation(double moved) const;
-  // Evidence of being on the route, from how the view has changed since a while ago.
-  void AddMembership(std::span<const JourneyRef> journeys, double moved, double weight);
+  // Evidence of being on the route: how the view has changed since a while ago (SharedChange), and
+  // how well it fits where the robot was expected, as MeanFactor.
+  std::optional<double> SharedBy(std::span<const JourneyRef> journeys, double moved);
+  void AddMembership(double weight, std::optional<double> shared, double fit);
   // Where the robot is well known, only the steps around it are held one by one; else all.
   void FocusIfKnown();
   void Unfocus();

@@ -15,7 +15,6 @@ namespace {
 // docs/algorithm.md lists these constants and what each real set would choose.
 constexpr double kSlope = 2;
 constexpr double kNeutral = 1;
-constexpr double kMostEvidence = 5;
 constexpr double kOutlierFraction = 0.25;
 // A sample whose distances are all alike tells nothing apart.
 constexpr double kLeastDeviation = 0.02;

@@ -28,6 +28,9 @@ DistanceScale ScaleOf(std::span<const std::uint16_t> sample);
 // The ratio of a distance that many deviations from the middle, to the power of `weight`. Positive.
 class ProfileRatio {
  public:
+  // Logarithm of the greatest ratio of full weight.
+  static constexpr double kMostEvidence = 5;
+
   // The table of the weight nearest to `weight`: powers of the square root of 2 up to
   // 1. Observations that show nearly what the ones before have shown weigh less.
   static const ProfileRatio& OfWeight(double weight);

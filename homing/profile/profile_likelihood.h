@@ -43,6 +43,8 @@ class ProfileLikelihood {
 
   // By predicted step. Sides without profiles are neutral: 1.
   std::span<const float> of(std::size_t journey) const { return likelihoods_[journey]; }
+  // Sides that were compared.
+  int compared() const { return (compared_[0] ? 1 : 0) + (compared_[1] ? 1 : 0); }
   // What was seen at this instant at the likeliest of the steps `first` to `last`. REQUIRES: some
   // of these steps are predicted.
   BelievedInstant Believed(std::size_t journey, std::int64_t first, std::int64_t last) const;
