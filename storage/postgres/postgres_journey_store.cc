@@ -72,7 +72,7 @@ absl::Status PostgresJourneyStore::ProbeWrite() {
 
 absl::Status PostgresJourneyStore::Write(PgWriter::Scope scope, const Body& body) {
   if (read_only()) return ReadOnlyError();
-  const absl::Status status = writer_.Write(scope, body);
+  absl::Status status = writer_.Write(scope, body);
   heartbeat_->NoteWrite(status);
   return status;
 }
@@ -95,7 +95,7 @@ absl::Status PostgresJourneyStore::CreateJourney(const JourneyRecord& record) {
   bool is_repeated = false;
   writer_.Forget(record.name);
   return Write(kOneStatement, [&](PgConnection& connection, Deadline deadline) {
-    const absl::Status status = InsertJourney(connection, empty, deadline);
+    absl::Status status = InsertJourney(connection, empty, deadline);
     if (!std::exchange(is_repeated, true) || !absl::IsAlreadyExists(status)) return status;
     // The first try may have stored it.
     const auto stored = FindJourney(connection, record.name, deadline);
