@@ -35,7 +35,7 @@ absl::Status PgWriter::Write(Scope scope, const Body& body) {
   const MutexLock lock(mutex_);
   const Deadline deadline = After(kWriteTime);
   while (true) {
-    const absl::Status status = WriteOnce(scope, body, deadline);
+    absl::Status status = WriteOnce(scope, body, deadline);
     const bool is_lost = connection_ == nullptr || connection_->is_lost();
     const bool is_again = absl::IsUnavailable(status) && (is_lost || IsConflict(status));
     if (!is_again || After(kRetryPause) > deadline) return status;
