@@ -38,6 +38,7 @@ void JourneyFollower::Run() {
 absl::Status JourneyFollower::FollowAll() {
   const auto journeys = catalog_->InMemory();
   std::vector<std::string> names;
+  names.reserve(journeys.size());
   for (const auto& [name, journey] : journeys) names.push_back(name);
   if (names.empty()) return absl::OkStatus();
   HOMING_ASSIGN_OR_RETURN(const std::vector<storage::JourneyMark> marks, store_->LoadMarks(names));

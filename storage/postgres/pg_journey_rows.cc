@@ -150,6 +150,7 @@ absl::StatusOr<std::vector<JourneyMark>> LoadJourneyMarks(PgConnection& connecti
                                                           const std::vector<std::string>& names,
                                                           Deadline deadline) {
   std::vector<std::int64_t> ids;
+  ids.reserve(names.size());
   for (const std::string& name : names) ids.push_back(JourneyId(name));
   HOMING_ASSIGN_OR_RETURN(const PgRows rows,
                           connection.Run(kFindMarks, PgArguments().Integers(ids), deadline));
