@@ -45,7 +45,7 @@ absl::StatusOr<std::shared_ptr<const v1::Observation>> ResendBuffer::Next() {
 void ResendBuffer::Drop(std::int64_t first, std::int64_t after, std::int64_t sequence) {
   // What is not sent again yet stays.
   const std::int64_t sent = cursor_ < kept_.size() ? kept_[cursor_]->sequence() : end();
-  const auto erase = [this](std::int64_t from, std::int64_t to) {
+  const auto erase = [this](std::int64_t from, std::int64_t to) HOMING_REQUIRES(mutex_) {
     const std::size_t begin = IndexOf(from);
     const std::size_t count = std::max(IndexOf(to), begin) - begin;
     const auto at = kept_.begin() + static_cast<std::ptrdiff_t>(begin);
