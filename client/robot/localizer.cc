@@ -57,9 +57,14 @@ class __attribute__((visibility("hidden"))) Localizer::State {
     });
     client::LocalizingOptions options;
     options.config = config_;
-    const absl::Status outcome = client.Localize(
-        options, buffer_.get(), [this](const v1::LocalizeResponse& answer) { return Take(answer); },
-        stop_.get_token());
+    // The stream begins with the drive: before, the journey need not exist, and no stream stands
+    // idle.
+    absl::Status outcome = absl::CancelledError("stopped");
+    if (buffer_->Await()) {
+      outcome = client.Localize(
+          options, buffer_.get(),
+          [this](const v1::LocalizeResponse& answer) { return Take(answer); }, stop_.get_token());
+    }
     const MutexLock lock(mutex_);
     outcome_ = outcome.ok() ? absl::CancelledError("stopped") : outcome;
     ended_ = true;

@@ -122,6 +122,12 @@ std::int64_t ObservationBuffer::pending() const {
   return pending_count();
 }
 
+bool ObservationBuffer::Await() {
+  const MutexLock lock(mutex_);
+  while (!stopped_ && cursor_ >= end_) changed_.Wait(mutex_);
+  return !stopped_;
+}
+
 absl::Status ObservationBuffer::Align(std::int64_t durable) {
   const MutexLock lock(mutex_);
   const std::int64_t shift = durable > opened_at_ ? durable - opened_at_ : 0;

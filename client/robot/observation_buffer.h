@@ -38,6 +38,8 @@ class ObservationBuffer : public client::ObservationStream {
   // Next returns std::nullopt at once.
   void Stop();
   std::int64_t pending() const;
+  // Waits until there is one to send. False: stopped.
+  bool Await();
 
   // Makes the numbers fit to a server that has all before `durable`: those added since the buffer
   // was opened are new, whatever their number. Call it once, before the first Next.

@@ -19,11 +19,13 @@ int main(int argc, char** argv) {
     robot::Observation seen;
     seen.left = {robot::Image{robot::Encoding::kPng, 0, 0, bytes.data(), bytes.size()}, {}};
     if (i < argc) {
-      const robot::Status added = (*recorder)->Add(seen);
-      if (!added.ok()) std::cerr << added.message() << '\n';
-      if (i == argc - 1 && !(*recorder)->Finish(std::chrono::seconds(60)).ok()) return 1;
+      robot::Status done = (*recorder)->Add(seen);
+      if (i == argc - 1) done = (*recorder)->Finish(std::chrono::seconds(60));
+      if (!done.ok()) std::cerr << done.message() << '\n';
     } else if (auto answer = (*localizer)->Localize(seen, std::chrono::seconds(10)); answer.ok()) {
       std::cout << "step " << answer->step.value_or(-1) << " p " << answer->probability << '\n';
+    } else {
+      std::cerr << answer.status().message() << '\n';
     }
   }
   std::cerr << recorder.status().message() << localizer.status().message();

@@ -176,6 +176,20 @@ TEST_F(RobotTest, WrongOptionsAreNamed) {
   EXPECT_EQ(Recorder::Open(Server{"no port"}, options).status().code(), Code::kInvalidArgument);
 }
 
+TEST_F(RobotTest, TheJourneyMayBeRecordedAfterTheLocalizerIsOpened) {
+  LocalizerOptions options;
+  options.journey = kJourney;
+  options.travel = Travel::kSame;
+  auto localizer = Localizer::Open(Server{address_}, options);
+  ASSERT_TRUE(localizer.ok());
+  std::this_thread::sleep_for(std::chrono::milliseconds(300));
+  const auto recorder = Record();
+  Add(*recorder, 0, 20);
+  ExpectDone(*recorder);
+  const auto answer = (*localizer)->Localize(FlowAt(3), seconds(10));
+  EXPECT_TRUE(answer.ok()) << answer.status().message();
+}
+
 TEST_F(RobotTest, NoAnswerInTime) {
   LocalizerOptions options;
   options.journey = kJourney;
