@@ -3,10 +3,8 @@
 #define HOMING_JOURNEY_MEASURED_ROUTE_H_
 
 #include <memory>
+#include <mutex>
 #include <utility>
-
-#include "absl/base/thread_annotations.h"
-#include "absl/synchronization/mutex.h"
 
 namespace homing {
 
@@ -28,17 +26,17 @@ class MeasuredRoute {
 
   // Null: not measured yet.
   std::shared_ptr<const RouteScale> get() const {
-    const absl::MutexLock lock(&mutex_);
+    const std::lock_guard lock(mutex_);
     return scale_;
   }
   void set(std::shared_ptr<const RouteScale> scale) {
-    const absl::MutexLock lock(&mutex_);
+    const std::lock_guard lock(mutex_);
     scale_ = std::move(scale);
   }
 
  private:
-  mutable absl::Mutex mutex_;
-  std::shared_ptr<const RouteScale> scale_ ABSL_GUARDED_BY(mutex_);
+  mutable std::mutex mutex_;
+  std::shared_ptr<const RouteScale> scale_;
 };
 
 }  // namespace homing
