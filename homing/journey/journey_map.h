@@ -14,6 +14,7 @@
 #include "homing/flow/motion.h"
 #include "homing/flow/observation.h"
 #include "homing/journey/journey_settings.h"
+#include "homing/journey/measured_route.h"
 #include "homing/landmark/fingerprint.h"
 #include "homing/landmark/flow_profile.h"
 
@@ -99,6 +100,8 @@ class JourneyMap {
   }
   // One that is all 0 is none. REQUIRES: 0 <= step < step_count().
   void set_profile(std::int64_t step, Side side, const FlowProfile& profile);
+  // What MeasuredScale found; shared by all that read this map.
+  MeasuredRoute& measured_route() const { return measured_route_; }
   // Indexed by landmark number.
   const std::vector<Landmark>& landmarks() const { return landmarks_; }
   Side side_of(const Fingerprint& f) const {
@@ -126,6 +129,7 @@ class JourneyMap {
   std::vector<std::int64_t> sequences_;
   std::vector<Landmark> landmarks_;
   std::array<std::vector<FlowProfile>, 2> profiles_;
+  mutable MeasuredRoute measured_route_;
 };
 
 }  // namespace homing

@@ -9,16 +9,23 @@ namespace {
 // Weight of the last reading in the usual one.
 constexpr double kLastReading = 0.3;
 constexpr double kMostMoved = 1;
+// Evidence of an observation: steps moved over correlation length, times this.
+constexpr double kEvidencePerLength = 1.5;
+constexpr double kLeastEvidence = 0.01;
 
-double MeanReading(std::span<const float> readings, const StepMass& mass) {
+double MeanReading(std::span<const std::int16_t> readings, const StepMass& mass) {
   double sum = 0;
   for (std::size_t i = 0; i < mass.mass.size(); ++i) {
-    sum += double{mass.mass[i]} * double{readings[static_cast<std::size_t>(mass.first) + i]};
+    sum += double{mass.mass[i]} * readings[static_cast<std::size_t>(mass.first) + i];
   }
   return sum;
 }
 
 }  // namespace
+
+double EvidenceWeight(double moved, double correlation_steps) {
+  return std::clamp(kEvidencePerLength * moved / correlation_steps, kLeastEvidence, 1.0);
+}
 
 std::optional<double> DistanceMoved::Update(std::span<const RouteScale> routes,
                                             std::span<const StepMass> masses,

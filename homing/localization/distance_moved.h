@@ -15,6 +15,10 @@
 
 namespace homing {
 
+// What an observation may say that the ones before have not, after so many steps on a map with this
+// correlation length. (0, 1].
+double EvidenceWeight(double moved, double correlation_steps);
+
 // The ratio of one observation scatters, and the speeds that the filter believes in have a prior.
 // So this compares the readings of the last few observations with those of the map about where
 // the robot may be. Not thread-safe.

@@ -6,14 +6,13 @@
 
 #include "homing/base/range_check.h"
 #include "homing/base/status_macros.h"
+#include "homing/localization/speed_ratios.h"
 
 namespace homing {
 namespace {
 
 // Less on the route is nothing.
 constexpr double kNoMass = 1e-12;
-// Evidence of an observation: steps moved over correlation length, times this.
-constexpr double kEvidencePerLength = 1.5;
 // Log odds an observation of full weight: for each unit of shared change, which is bounded, and of
 // the fit where the robot was expected, as a part of the most evidence there is; at most one unit.
 constexpr double kMembershipGain = 0.5;
@@ -137,39 +136,14 @@ std::vector<StepMass> PositionFilter::Masses() const {
   return masses;
 }
 
-std::vector<std::int16_t> PositionFilter::RatiosOf(std::size_t journey, const JourneyMap& map,
-                                                   const SeenProfiles& profiles) const {
-  const StepMass& window = masses_[journey];
-  std::vector<std::int32_t> sums(window.mass.size());
-  std::vector<std::int32_t> counts(window.mass.size());
-  for (std::size_t side = 0; side < profiles.size(); ++side) {
-    const auto stored = map.profiles(Side{static_cast<int>(side)});
-    if (!profiles[side] || stored.empty()) continue;
-    const CameraOdometer& odometer = profile_likelihood_.routes()[journey].sides[side]->odometer;
-    const std::int16_t now = odometer.Read(profiles[side]->odometer());
-    if (now == CameraOdometer::kNone) continue;
-    for (std::size_t i = 0; i < sums.size(); ++i) {
-      const auto step = static_cast<std::size_t>(window.first) + i;
-      const std::int16_t then = odometer.Read(stored[step].odometer);
-      if (then == CameraOdometer::kNone) continue;
-      sums[i] += now - then;
-      counts[i] += 1;
-    }
-  }
-  std::vector<std::int16_t> ratios(sums.size(), kNoRatio);
-  for (std::size_t i = 0; i < sums.size(); ++i) {
-    if (counts[i] > 0) ratios[i] = SpeedEvidence::IndexOf(sums[i] / counts[i]);
-  }
-  return ratios;
-}
-
 void PositionFilter::Weigh(std::span<const JourneyRef> journeys, const SeenProfiles& profiles,
                            const Factors& factors) {
   double after = 0;
   for (std::size_t i = 0; i < beliefs_.size(); ++i) {
     const std::vector<std::int16_t> ratios =
-        options_.paper_only ? std::vector<std::int16_t>(masses_[i].mass.size(), kNoRatio)
-                            : RatiosOf(i, *journeys[i].map, profiles);
+        options_.paper_only
+            ? std::vector<std::int16_t>(masses_[i].mass.size(), kNoRatio)
+            : SpeedRatios(*journeys[i].map, profile_likelihood_.routes()[i], masses_[i], profiles);
     masses_[i] = beliefs_[i].Weigh(factors(i), ratios, speeds_[i]);
     after += masses_[i].Sum() + beliefs_[i].MassBeyond();
   }
@@ -208,7 +182,7 @@ double PositionFilter::WeightOfObservation(double moved) const {
       length = profile_likelihood_.routes()[i].correlation_steps;
     }
   }
-  return std::clamp(kEvidencePerLength * moved / length, 0.01, 1.0);
+  return EvidenceWeight(moved, length);
 }
 
 std::optional<double> PositionFilter::SharedBy(std::span<const JourneyRef> journeys, double moved) {

@@ -109,9 +109,6 @@ class PositionFilter {
   // odometer says.
   void Weigh(std::span<const JourneyRef> journeys, const SeenProfiles& profiles,
              const Factors& factors);
-  // By step of the active window: what the odometer says, an index into SpeedEvidence.
-  std::vector<std::int16_t> RatiosOf(std::size_t journey, const JourneyMap& map,
-                                     const SeenProfiles& profiles) const;
   // What this observation may say that the ones before have not: the steps that the robot has moved
   // over the correlation length of the map. (0, 1].
   double WeightOfObservation(double moved) const;

@@ -7,8 +7,6 @@
 namespace homing {
 namespace {
 
-// A map is measured again when it has grown by this factor.
-constexpr double kMuchGrown = 1.25;
 constexpr std::size_t kNoOffset = kPathOffsets.size() / 2;
 static_assert(kPathOffsets[kNoOffset] == 0);
 // Stored profiles that tell how far away those of other places are; at most twice as many.
@@ -77,15 +75,15 @@ bool ProfileLikelihood::CanCompare(std::span<const JourneyRef> journeys, const S
 
 void ProfileLikelihood::Grow(std::span<const JourneyRef> journeys) {
   routes_.resize(journeys.size());
+  measured_.resize(journeys.size());
   offsets_.resize(journeys.size());
   for (std::size_t i = 0; i < journeys.size(); ++i) {
     const JourneyMap& map = *journeys[i].map;
     offsets_[i].Grow(map.step_count());
-    const bool side_is_new = (HasProfiles(journeys[i], 0) && !routes_[i].sides[0]) ||
-                             (HasProfiles(journeys[i], 1) && !routes_[i].sides[1]);
-    if (side_is_new || static_cast<double>(map.step_count()) >
-                           kMuchGrown * static_cast<double>(routes_[i].step_count)) {
-      routes_[i] = MeasureRoute(map);
+    const std::shared_ptr<const RouteScale> scale = MeasuredScale(map);
+    if (scale != measured_[i]) {
+      measured_[i] = scale;
+      routes_[i] = *scale;
     }
     for (std::optional<SideScale>& side : routes_[i].sides) {
       if (!side) continue;

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -94,7 +95,8 @@ class ProfileLikelihood {
   std::vector<std::vector<OffsetValues>> fits_;
   // By journey: the first of them.
   std::vector<std::size_t> first_stretch_;
-  // By journey.
+  // By journey: as measured, and with the steps that have come since.
+  std::vector<std::shared_ptr<const RouteScale>> measured_;
   std::vector<RouteScale> routes_;
   // First predicted step.
   std::vector<std::int64_t> first_steps_;

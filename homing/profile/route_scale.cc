@@ -18,6 +18,8 @@ constexpr std::int64_t kSelfSamples = 256;
 constexpr std::int64_t kMostLag = 200;
 // Part of a step's bias that is taken off. The whole would also take off what tells it apart.
 constexpr double kBiasPart = 0.5;
+// A map is measured again when it has grown by this factor.
+constexpr double kMuchGrown = 1.25;
 // Neighbours whose readings are averaged.
 constexpr double kReadingSteps = 3;
 // Of the signs of two kinds of flow, one must be this much steadier.
@@ -61,15 +63,16 @@ int SpreadOf(const OdometerReading& reading) { return reading.spread_code; }
 
 // Mean over the neighbours, weighed by a Gaussian of kReadingSteps steps; where none has a reading,
 // the median of all.
-std::vector<float> UsualReadings(std::span<const FlowProfile> profiles,
-                                 const CameraOdometer& odometer) {
+std::vector<std::int16_t> UsualReadings(std::span<const FlowProfile> profiles,
+                                        const CameraOdometer& odometer) {
   std::vector<std::int16_t> readings;
   std::vector<float> valid;
   for (const FlowProfile& profile : profiles) {
     readings.push_back(odometer.Read(profile.odometer));
     if (readings.back() != CameraOdometer::kNone) valid.push_back(readings.back());
   }
-  std::vector<float> usual(profiles.size(), static_cast<float>(MedianOf(valid)));
+  std::vector<std::int16_t> usual(profiles.size(),
+                                  static_cast<std::int16_t>(std::lround(MedianOf(valid))));
   const auto reach = static_cast<std::int64_t>(3 * kReadingSteps);
   for (std::int64_t step = 0; step < std::ssize(usual); ++step) {
     double sum = 0, weights = 0;
@@ -82,7 +85,9 @@ std::vector<float> UsualReadings(std::span<const FlowProfile> profiles,
       sum += weight * reading;
       weights += weight;
     }
-    if (weights > 0) usual[static_cast<std::size_t>(step)] = static_cast<float>(sum / weights);
+    if (weights > 0) {
+      usual[static_cast<std::size_t>(step)] = static_cast<std::int16_t>(std::lround(sum / weights));
+    }
   }
   return usual;
 }
@@ -241,6 +246,19 @@ RouteScale MeasureRoute(const JourneyMap& map) {
   }
   MeasureDifferentShare(map, route);
   return route;
+}
+
+std::shared_ptr<const RouteScale> MeasuredScale(const JourneyMap& map) {
+  std::shared_ptr<const RouteScale> kept = map.measured_route().get();
+  const auto is_new = [&](std::size_t side) {
+    return !map.profiles(Side{static_cast<int>(side)}).empty() && !kept->sides[side];
+  };
+  if (!kept || is_new(0) || is_new(1) ||
+      static_cast<double>(map.step_count()) > kMuchGrown * static_cast<double>(kept->step_count)) {
+    kept = std::make_shared<const RouteScale>(MeasureRoute(map));
+    map.measured_route().set(kept);
+  }
+  return kept;
 }
 
 }  // namespace homing

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -47,7 +48,7 @@ inline constexpr double kStretchLengths = 2;
 struct SideScale {
   CameraOdometer odometer;
   // By step: mean reading of the steps around it.
-  std::vector<float> usual_readings;
+  std::vector<std::int16_t> usual_readings;
   // By step: half of what its distance to other places lies above the usual one. A step that is
   // near to everything would attract every observation.
   std::vector<std::int16_t> bias;
@@ -72,6 +73,9 @@ struct RouteScale {
 };
 
 RouteScale MeasureRoute(const JourneyMap& map);
+
+// The same, kept with the map until it has grown much or has profiles of a new side.
+std::shared_ptr<const RouteScale> MeasuredScale(const JourneyMap& map);
 
 }  // namespace homing
 

@@ -114,7 +114,7 @@ void LocalizeDirectly(int number, Run& run) {
   std::vector<JourneyMap> maps;
   std::vector<std::string> names;
   for (std::size_t i = 0; i < run.maps.size(); ++i) {
-    maps.push_back(MapOf(ObservationsOf(*run.maps[i])));
+    maps.push_back(accuracy::MapOf(*run.maps[i]));
     names.push_back(NameOf(number, i));
   }
   std::vector<JourneyRef> journeys;
@@ -177,6 +177,8 @@ void LocalizeOverServer(const client::Connection& server, int number, Run& run) 
 }
 
 }  // namespace
+
+JourneyMap MapOf(const Drive& drive) { return MapOf(ObservationsOf(drive)); }
 
 void LocalizeRun(const client::Connection* server, int number, Run& run) {
   if (server == nullptr) {

@@ -6,9 +6,13 @@
 #include <string>
 
 #include "client/connection.h"
+#include "homing/journey/journey_map.h"
 #include "tests/accuracy/run.h"
 
 namespace homing::accuracy {
+
+// What Homing records on the drive.
+JourneyMap MapOf(const Drive& drive);
 
 // Fills run.homing and run.single_frame (best P_T alone). `server` null: without a server.
 // `number` makes the journeys' names unique.

@@ -1,6 +1,5 @@
 // Runs every development sequence and simulated condition and writes what came out; see run.sh.
 #include <CLI/CLI.hpp>
-#include <array>
 #include <fstream>
 #include <iostream>
 
@@ -33,41 +32,14 @@ struct Flags {
   bool peers = true;
 };
 
-// Slopes tried for the pictures' filter; the best over the real sequences is taken.
-constexpr std::array<double, 6> kSlopes = {0.1, 0.2, 0.4, 0.8, 1.6, 3.2};
-constexpr double kUsualSlope = 0.4;
-
 void RunPeers(std::vector<Run>& runs) {
-  std::vector<Differences> differences(runs.size());
   InParallel(runs.size(), [&](std::size_t i) {
     if (runs[i].foreign) return;
-    differences[i] = DifferencesOf(runs[i]);
-    runs[i].seq_slam_5 = SeqSlam(runs[i], differences[i], 5);
-    runs[i].seq_slam_10 = SeqSlam(runs[i], differences[i], 10);
+    const Differences differences = DifferencesOf(runs[i]);
+    runs[i].seq_slam_5 = SeqSlam(runs[i], differences, 5);
+    runs[i].seq_slam_10 = SeqSlam(runs[i], differences, 10);
+    runs[i].pictures = PictureFilter(runs[i], differences);
   });
-  const auto filter = [&](double slope, bool only_real) {
-    InParallel(runs.size(), [&](std::size_t i) {
-      if (runs[i].foreign || (only_real && !runs[i].real)) return;
-      runs[i].pictures = PictureFilter(runs[i], differences[i], slope);
-    });
-  };
-  std::vector<const Run*> real;
-  for (const Run& run : runs) {
-    if (run.real && !run.foreign) real.push_back(&run);
-  }
-  double best_recall = -1;
-  double best_slope = kUsualSlope;
-  for (const double slope : kSlopes) {
-    if (real.empty()) break;
-    filter(slope, true);
-    const double recall = Recall(Judge(real, &Run::pictures));
-    if (recall > best_recall) {
-      best_recall = recall;
-      best_slope = slope;
-    }
-  }
-  std::cerr << "the pictures' filter does best with slope " << best_slope << "\n";
-  filter(best_slope, false);
 }
 
 std::optional<client::Connection> Connect(const std::string& address) {

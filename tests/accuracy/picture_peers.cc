@@ -4,8 +4,12 @@
 #include <cmath>
 #include <numeric>
 
+#include "homing/localization/distance_moved.h"
 #include "homing/localization/route_belief.h"
+#include "homing/localization/speed_ratios.h"
 #include "homing/localization/step_window.h"
+#include "homing/profile/profile_evidence.h"
+#include "tests/accuracy/homing_runs.h"
 
 namespace homing::accuracy {
 namespace {
@@ -76,6 +80,64 @@ Differences Enhance(const Differences& differences) {
   return result;
 }
 
+// A difference of 1 as a distance.
+constexpr float kPerDifference = 8192;
+// Probability a step of having been set down there; that of PositionOptions.
+constexpr double kRestart = 1e-4;
+
+class PictureBelief {
+ public:
+  // Keeps both.
+  PictureBelief(const JourneyMap& map, const RouteScale& route)
+      : map_(map), route_(route), speeds_(route.odometer_noise), unbiased_(Steps()) {
+    belief_.Grow(map.step_count(), 1.0 / static_cast<double>(map.step_count()));
+  }
+
+  StepWindow Update(const ObservedFlow& flow, const Run& run, std::span<const float> differences) {
+    SeenProfiles profiles;
+    for (std::size_t camera = 0; camera < 2; ++camera) {
+      const auto side = RouteSide(Side{static_cast<int>(camera)}, run.travel);
+      if (flow.fields[camera]) {
+        profiles[static_cast<std::size_t>(side)].emplace(*flow.fields[camera]);
+      }
+    }
+    if (started_) {
+      belief_.Move(speeds_.change(), kRestart / static_cast<double>(Steps()));
+      belief_.Scale(1 / std::max(belief_.Mass(), 1e-20));
+    }
+    const StepMass masses = belief_.Masses();
+    const double moved = distance_.Update({&route_, 1}, {&masses, 1}, profiles).value_or(1);
+    const double weight = started_ ? EvidenceWeight(moved, route_.correlation_steps) : 1;
+    started_ = true;
+    belief_.Weigh(FactorsOf(differences, weight), SpeedRatios(map_, route_, masses, profiles),
+                  speeds_);
+    belief_.Scale(1 / std::max(belief_.Mass(), 1e-20));
+    return BestWindow(belief_.Masses(), run.tolerance_steps, map_.step_count());
+  }
+
+ private:
+  std::size_t Steps() const { return static_cast<std::size_t>(map_.step_count()); }
+
+  std::vector<float> FactorsOf(std::span<const float> differences, double weight) const {
+    std::vector<std::uint16_t> distances;
+    for (const float difference : differences) {
+      distances.push_back(
+          static_cast<std::uint16_t>(std::min(difference * kPerDifference, 65535.0F)));
+    }
+    std::vector<float> factors(distances.size(), 1);
+    ProfileRatio::OfWeight(weight).Multiply(distances, unbiased_, ScaleOf(distances), factors);
+    return factors;
+  }
+
+  const JourneyMap& map_;
+  const RouteScale& route_;
+  SpeedEvidence speeds_;
+  std::vector<std::int16_t> unbiased_;
+  RouteBelief belief_;
+  DistanceMoved distance_;
+  bool started_ = false;
+};
+
 }  // namespace
 
 Differences DifferencesOf(const Run& run) {
@@ -132,35 +194,17 @@ Answers SeqSlam(const Run& run, const Differences& differences, int window) {
   return run.ByInstant(answers);
 }
 
-Answers PictureFilter(const Run& run, const Differences& differences, double slope) {
-  const auto map = StepsOf(*run.maps[0]);
-  const auto places = static_cast<std::int64_t>(map.size());
-  RouteBelief belief;
-  const SpeedEvidence speeds(1);
-  belief.Grow(places, 1.0 / static_cast<double>(places));
+Answers PictureFilter(const Run& run, const Differences& differences) {
+  const JourneyMap map = MapOf(*run.maps[0]);
+  const RouteScale route = MeasureRoute(map);
+  const auto steps = StepsOf(*run.maps[0]);
+  const auto query = run.QuerySteps();
+  PictureBelief belief(map, route);
   Answers answers;
-  for (const std::vector<float>& row : differences) {
-    std::vector<float> sorted = row;
-    std::ranges::sort(sorted);
-    const double middle = sorted[sorted.size() / 2];
-    double squares = 0;
-    for (const float value : sorted) squares += std::pow(std::max(0.0, value - middle), 2);
-    const double deviation =
-        std::sqrt(squares / (0.5 * static_cast<double>(sorted.size()))) + 1e-3 * middle + 1e-9;
-    std::vector<float> factors;
-    for (const float value : row) {
-      factors.push_back(static_cast<float>(
-          std::exp(std::clamp(-slope * (value - middle) / deviation, -5.0, 5.0))));
-    }
-    belief.Move(0.05);
-    belief.Scale(1 / std::max(belief.Mass(), 1e-20));
-    belief.AddToEach(5e-4 / static_cast<double>(places));
-    belief.Weigh(factors, std::vector<std::int16_t>(factors.size(), SpeedEvidence::kNoRatio),
-                 speeds);
-    belief.Scale(1 / std::max(belief.Mass(), 1e-20));
-    const StepWindow window = BestWindow(belief.Masses(), run.tolerance_steps, places);
+  for (std::size_t q = 0; q < query.size(); ++q) {
+    const StepWindow window = belief.Update(query[q]->flow, run, differences[q]);
     answers.push_back(
-        {.place = map[static_cast<std::size_t>(window.step)]->place, .score = window.mass});
+        {.place = steps[static_cast<std::size_t>(window.step)]->place, .score = window.mass});
   }
   return run.ByInstant(answers);
 }

@@ -22,9 +22,9 @@ Differences DifferencesOf(const Run& run);
 // how much better the best line is than the best one 10 or more places away (as in OpenSeqSLAM).
 Answers SeqSlam(const Run& run, const Differences& differences, int window);
 
-// The belief of Homing's own filter (RouteBelief), weighed by the pictures' differences: exp(-slope
-// u), u the deviations from the middle of all, the last `slope` tuned by the caller.
-Answers PictureFilter(const Run& run, const Differences& differences, double slope);
+// Homing's own filter with pictures instead of flow profiles: the same belief, the odometer that
+// the flow gives, and the same evidence of distances and of motion. It is never off the route.
+Answers PictureFilter(const Run& run, const Differences& differences);
 
 inline constexpr double kPictureBytes = 2048;
 

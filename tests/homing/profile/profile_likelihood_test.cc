@@ -103,6 +103,63 @@ TEST_F(ProfileLikelihoodTest, WhatIsLearntAtOnePlaceIsNotExpectedAtAFarOne) {
   EXPECT_FLOAT_EQ(See(fields_[50])[50], before);
 }
 
+TEST_F(ProfileLikelihoodTest, TheOffsetGrowsWithTheDistanceToTheLeft) {
+  JourneyMap map;
+  for (int step = 0; step < kMapSteps; ++step) {
+    JourneyStep recorded{
+        .step = step, .motion = Motion::kMoving, .fingerprints = {}, .profiles = {}};
+    const auto other = static_cast<std::size_t>(kMapSteps - 1 - step);
+    recorded.profiles = {MakeFlowProfile(fields_[static_cast<std::size_t>(step)]),
+                         MakeFlowProfile(fields_[other])};
+    ASSERT_TRUE(map.Append(recorded).ok());
+  }
+  const JourneyRef ref{&name_, &map};
+  predicted_.mass.assign(kMapSteps, 0);
+  predicted_.mass[20] = 1;
+  double before = -1;
+  for (const float offset : {-0.3F, -0.15F, 0.0F, 0.15F, 0.3F}) {
+    ProfileLikelihood likelihood;
+    likelihood.Grow({&ref, 1});
+    for (int i = 0; i < 15; ++i) {
+      SeenProfiles seen;
+      seen[0].emplace(Nearer(fields_[20], 1 / (1 - offset)));
+      seen[1].emplace(Nearer(fields_[kMapSteps - 21], 1 / (1 + offset)));
+      likelihood.Compute({&ref, 1}, seen, {&predicted_, 1}, 1);
+      likelihood.Learn();
+    }
+    EXPECT_GT(likelihood.MeanOffset(), before) << offset;
+    before = likelihood.MeanOffset();
+  }
+}
+
+TEST_F(ProfileLikelihoodTest, ARobotThatPassesTheEndIsNoLongerOnTheRoute) {
+  std::mt19937_64 engine(12);
+  PositionFilter filter{PositionOptions{}};
+  const PositionPrior prior{.journey = 0,
+                            .step = 20,
+                            .direction = Direction::kOutward,
+                            .probability = 0.9,
+                            .path_offset = {}};
+  ASSERT_TRUE(filter.Start({&ref_, 1}, prior).ok());
+  Position position;
+  for (int step = 21; step < kMapSteps; ++step) {
+    SeenProfiles seen;
+    seen[0].emplace(fields_[static_cast<std::size_t>(step)]);
+    position = filter.Update({&ref_, 1}, Motion::kMoving, {}, seen);
+    if (step == 21) {
+      EXPECT_NEAR(static_cast<double>(position.step.value_or(-9)), 21, 10);
+    }
+  }
+  EXPECT_EQ(position.outcome, Outcome::kMatch);
+  EXPECT_EQ(position.direction, Direction::kOutward);
+  for (int i = 0; i < 40; ++i) {
+    SeenProfiles seen;
+    seen[0].emplace(RandomField(engine));
+    position = filter.Update({&ref_, 1}, Motion::kMoving, {}, seen);
+  }
+  EXPECT_EQ(position.outcome, Outcome::kUnknownPlace);
+}
+
 // The odds are bounded: some observations that fit must bring the robot back.
 TEST_F(ProfileLikelihoodTest, ALongForeignWayLeavesTheOddsBounded) {
   std::mt19937_64 engine(11);

@@ -1,0 +1,21 @@
+// What the odometer says at each step: the flow now over the flow stored there (METHOD 7).
+#ifndef HOMING_LOCALIZATION_SPEED_RATIOS_H_
+#define HOMING_LOCALIZATION_SPEED_RATIOS_H_
+
+#include <cstdint>
+#include <vector>
+
+#include "homing/journey/journey_map.h"
+#include "homing/profile/profile_views.h"
+#include "homing/profile/route_scale.h"
+#include "homing/profile/step_mass.h"
+
+namespace homing {
+
+// By step of `window`, an index into SpeedEvidence; the mean of the cameras. `route`: of `map`.
+std::vector<std::int16_t> SpeedRatios(const JourneyMap& map, const RouteScale& route,
+                                      const StepMass& window, const SeenProfiles& profiles);
+
+}  // namespace homing
+
+#endif  // HOMING_LOCALIZATION_SPEED_RATIOS_H_
