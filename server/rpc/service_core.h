@@ -19,6 +19,7 @@
 #include "server/catalog/fleet_index.h"
 #include "server/catalog/journey_catalog.h"
 #include "server/catalog/model_catalog.h"
+#include "server/fleet/fleet_board.h"
 #include "server/metrics/metrics.h"
 #include "server/rpc/stream_registry.h"
 #include "server/session/recording_session.h"
@@ -46,6 +47,13 @@ inline storage::CommitQueueOptions QueueOptions(Metrics* metrics) {
     metrics->Committed(stored, ok, time.count());
   };
   return options;
+}
+
+// Server's clock, nanoseconds since the epoch.
+inline std::int64_t WallClockNs() {
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(
+             std::chrono::system_clock::now().time_since_epoch())
+      .count();
 }
 
 // The order of destruction is the reverse: first the workers, then the commit queue, then the
@@ -83,17 +91,11 @@ struct ServiceCore {
   StreamLimiter places;
   // Bytes of files that are being imported.
   std::atomic<std::int64_t> import_bytes = 0;
+  FleetBoard fleet{WallClockNs};
   storage::CommitQueue queue;
   StreamRegistry streams;
   WorkerPool pool;
 };
-
-// Server's clock, nanoseconds since the epoch.
-inline std::int64_t WallClockNs() {
-  return std::chrono::duration_cast<std::chrono::nanoseconds>(
-             std::chrono::system_clock::now().time_since_epoch())
-      .count();
-}
 
 }  // namespace homing::server
 
