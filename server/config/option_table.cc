@@ -25,7 +25,12 @@ constexpr std::int64_t kMaxMessage = 268'435'456;
 const std::array kOptions = {
     ServerOption{"listen", HOMING_OPTION(listen), "Address and port; port 0 picks one"},
     ServerOption{"database", HOMING_OPTION(database), "sqlite:PATH"},
-    ServerOption{"http", HOMING_OPTION(http), "Address of GET /metrics; \"off\": none"},
+    ServerOption{"http", HOMING_OPTION(http),
+                 "Address of the console and of GET /metrics; \"off\": none"},
+    ServerOption{"http-host", HOMING_OPTION(http_host),
+                 "Names, with commas, by which browsers reach the console besides addresses"},
+    ServerOption{"http-user-header", HOMING_OPTION(http_user_header),
+                 "Header in which a proxy, which alone may reach --http, names its user"},
     ServerOption{"tls-cert", HOMING_OPTION(tls_cert), "Certificate chain, PEM"},
     ServerOption{"tls-key", HOMING_OPTION(tls_key), "Its private key, PEM"},
     ServerOption{"tls-client-ca", HOMING_OPTION(tls_client_ca),
