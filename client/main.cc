@@ -21,6 +21,7 @@ int main(int argc, char** argv) {
   homing::client::AddSimulateCommand(app, session);
   homing::client::AddDrawCommand(app, session);
   homing::client::AddBackupCommand(app, session);
+  homing::client::AddTopCommand(app, session);
   homing::client::AddEvaluateCommand(app, session);
   return homing::client::RunProgram(app, session, argc, argv);
 }

@@ -16,6 +16,7 @@ void AddTrainCommand(CLI::App& app, Session& session);
 void AddSimulateCommand(CLI::App& app, Session& session);
 void AddDrawCommand(CLI::App& app, Session& session);
 void AddBackupCommand(CLI::App& app, Session& session);
+void AddTopCommand(CLI::App& app, Session& session);
 void AddEvaluateCommand(CLI::App& app, Session& session);
 
 }  // namespace homing::client
