@@ -55,6 +55,9 @@ void FleetBoard::Presence::ReportAnswer(const v1::LocalizeResponse& answer, v1::
     NoteOutcome(answer, board_->now_ns_(), &robot);
     board_->NoteSeen(entry);
     robot.set_observation_count(robot.observation_count() + 1);
+    // Most robots are not watched: the copy with all matches is then not made.
+    entry->update.response.Clear();
+    if (belief.masses_size() == 0) return;
     *entry->update.response.mutable_answer() = answer;
     *entry->update.response.mutable_belief() = std::move(belief);
   });

@@ -84,6 +84,8 @@ struct ServiceCore {
   const std::unique_ptr<storage::JourneyStore> store;
   // Null without all_journeys_index.
   const std::unique_ptr<FleetIndex> index;
+  // Before the catalog, whose writers may hold a place on it.
+  FleetBoard fleet{WallClockNs};
   JourneyCatalog catalog;
   ModelCatalog models;
   JourneyQuota quota;
@@ -91,7 +93,6 @@ struct ServiceCore {
   StreamLimiter places;
   // Bytes of files that are being imported.
   std::atomic<std::int64_t> import_bytes = 0;
-  FleetBoard fleet{WallClockNs};
   storage::CommitQueue queue;
   StreamRegistry streams;
   WorkerPool pool;
