@@ -40,7 +40,7 @@ std::string Ago(const v1::Robot& robot) {
   return absl::StrCat(std::max<std::int64_t>(0, now - robot.last_seen().seconds()), " s");
 }
 
-std::string Row(const v1::Robot& robot) {
+std::string RobotRow(const v1::Robot& robot) {
   const v1::LocalizeResponse& answer = robot.answer();
   const State state = StateOf(robot);
   const bool localizes = robot.activity() == v1::ACTIVITY_LOCALIZING;
@@ -53,7 +53,7 @@ std::string Row(const v1::Robot& robot) {
                          Ago(robot), robot.journey_count());
 }
 
-Json ToJson(const v1::Robot& robot) {
+Json RobotJson(const v1::Robot& robot) {
   Json line = {{"robot", robot.name()},
                {"state", WordOf(StateOf(robot))},
                {"journey", robot.journey()},
@@ -67,13 +67,13 @@ Json ToJson(const v1::Robot& robot) {
   return line;
 }
 
-absl::Status PrintTable(const Session& session, std::vector<v1::Robot> robots) {
+absl::Status PrintRobots(const Session& session, std::vector<v1::Robot> robots) {
   std::stable_sort(robots.begin(), robots.end(),
                    [](const v1::Robot& a, const v1::Robot& b) { return StateOf(a) < StateOf(b); });
   HOMING_RETURN_IF_ERROR(
       session.Print(absl::StrFormat("%-24s  %-9s  %-36s  %6s  %6s  %8s  %8s", "robot", "state",
                                     "journey", "home", "prob.", "seen", "journeys")));
-  for (const v1::Robot& robot : robots) HOMING_RETURN_IF_ERROR(session.Print(Row(robot)));
+  for (const v1::Robot& robot : robots) HOMING_RETURN_IF_ERROR(session.Print(RobotRow(robot)));
   return absl::OkStatus();
 }
 
@@ -81,8 +81,8 @@ absl::Status Once(const Session& session) {
   HOMING_ASSIGN_OR_RETURN(const Connection connection, session.Connect());
   HOMING_ASSIGN_OR_RETURN(const std::vector<v1::Robot> robots,
                           ListRobots(connection, session.stop));
-  if (!session.json) return PrintTable(session, robots);
-  for (const v1::Robot& robot : robots) HOMING_RETURN_IF_ERROR(session.PrintJson(ToJson(robot)));
+  if (!session.json) return PrintRobots(session, robots);
+  for (const v1::Robot& robot : robots) HOMING_RETURN_IF_ERROR(session.PrintJson(RobotJson(robot)));
   return absl::OkStatus();
 }
 
@@ -92,7 +92,7 @@ absl::Status Follow(const Session& session) {
   const absl::Status status =
       WatchFleet(connection, session.stop, [&](const v1::WatchFleetResponse& changed) {
         for (const v1::Robot& robot : changed.robots()) {
-          if (session.json) HOMING_RETURN_IF_ERROR(session.PrintJson(ToJson(robot)));
+          if (session.json) HOMING_RETURN_IF_ERROR(session.PrintJson(RobotJson(robot)));
           robots[robot.name()] = robot;
         }
         if (session.json) return absl::OkStatus();
@@ -100,7 +100,7 @@ absl::Status Follow(const Session& session) {
         for (const auto& [name, robot] : robots) all.push_back(robot);
         // Home, and clear what is below: the table is drawn over the one before.
         HOMING_RETURN_IF_ERROR(session.Print("\x1b[H\x1b[J"));
-        return PrintTable(session, std::move(all));
+        return PrintRobots(session, std::move(all));
       });
   return session.stop.stop_requested() ? absl::OkStatus() : status;
 }
