@@ -64,6 +64,11 @@ absl::Status ConsoleServer::State::Listen() {
   if (!server->is_valid()) return absl::InvalidArgumentError("http: the TLS files are bad");
   server->new_task_queue = [] { return new httplib::ThreadPool(kThreads); };
   server->set_tcp_nodelay(true);
+  // The library's own options let a second server share the port silently.
+  server->set_socket_options([](socket_t socket) {
+    const int yes = 1;
+    ::setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof(yes));
+  });
   server->set_keep_alive_timeout(kTimeoutS);
   server->set_keep_alive_max_count(kMaxRequests);
   server->set_read_timeout(kTimeoutS);
