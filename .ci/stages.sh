@@ -25,6 +25,25 @@ stage_proto() {
   "$buf/node_modules/.bin/buf" lint proto
 }
 
+# The committed bundle is what its sources make; then the console in a browser.
+stage_console() {
+  command -v npm >/dev/null || skip "npm is not installed, so the console cannot be built"
+  npm ci --prefix console --ignore-scripts --no-audit --no-fund --loglevel=error ||
+    skip "the console's packages cannot be fetched from the npm registry"
+  mkdir -p build/ci/console
+  (cd console && node build.mjs ../build/ci/console)
+  diff -r console/dist build/ci/console
+  command -v chromium >/dev/null || skip "chromium is not installed; the bundle's bytes are right"
+  [ -x build/dev/server/homing-server ] || skip "no build of the server; the bundle's bytes are right"
+  sh tests/console/run.sh
+}
+
+# Alert rules, and the dashboard's queries against a live server.
+stage_operations() {
+  command -v promtool >/dev/null || skip "prometheus is not installed"
+  sh tests/operations/run.sh
+}
+
 # A Debian 12 with git only, and a clone of the last commit.
 stage_bare() {
   [ "$(id -u)" -eq 0 ] || skip "a bare root needs root"

@@ -6,10 +6,11 @@ usage() {
   cat <<'TEXT'
 usage: sh deploy/quickstart.sh
        sh deploy/quickstart.sh --left DIR [--right DIR] --home-left DIR [--home-right DIR]
-                               [--home-travel same|return]
+                               [--home-travel same|return] [--keep]
 Without folders a simulated robot drives 150 m of street out and home. --left and --right are the images
 of the outbound journey in order, --home-left and --home-right those of the way home; the default of
 --home-travel is return (the robot heads the other way, and its cameras have changed sides).
+--keep leaves the server running and prints the address of its console.
 TEXT
 }
 
@@ -18,9 +19,11 @@ right=''
 home_left=''
 home_right=''
 travel='return'
+keep=''
 while [ $# -gt 0 ]; do
   case $1 in
     -h | --help) usage; exit 0 ;;
+    --keep) keep=1; shift; continue ;;
     --left | --right | --home-left | --home-right | --home-travel)
       [ $# -ge 2 ] || { usage >&2; exit 2; } ;;
     *) echo "quickstart.sh: unknown argument '$1'" >&2; usage >&2; exit 2 ;;
@@ -82,7 +85,8 @@ finish() {
 }
 trap finish EXIT
 trap 'exit 130' INT TERM
-build/dev/server/homing-server --listen 127.0.0.1:0 --database "sqlite:$out/homing.db" \
+# shellcheck disable=SC2086 # no argument without --keep
+build/dev/server/homing-server --listen 127.0.0.1:0 ${keep:+--http 127.0.0.1:0} --database "sqlite:$out/homing.db" \
   >"$out/server.log" 2>&1 </dev/null &
 server=$!
 address=
@@ -127,4 +131,10 @@ else
   homing evaluate --answers "$out/home.json" --out "$out" || status=$?
 fi
 echo "pictures: $out/way_home.png (believed place), ${out_drive:+$out/drive.png (driven home by the answers), }$out/journey.png (the map), $out/flow.png (flow vectors and landmarks)"
+if [ -n "$keep" ]; then
+  console=$(sed -n 's/^console: //p' "$out/server.log" | head -n 1)
+  echo "The server stays: $console shows it in a browser; \`build/dev/client/homing --server $address top\` in a terminal."
+  echo "Stop it by: kill $server"
+  server=
+fi
 exit "${status:-0}"

@@ -23,6 +23,12 @@ double SizeOf(const std::string& path) {
   return error ? 0 : static_cast<double>(size);
 }
 
+double FreeBytes(const std::string& path) {
+  std::error_code error;
+  const fs::space_info space = fs::space(fs::absolute(path, error).parent_path(), error);
+  return error ? 0 : static_cast<double>(space.available);
+}
+
 double ResidentBytes() {
   std::ifstream file("/proc/self/statm");
   double pages = 0;
@@ -64,9 +70,17 @@ void AddCoreGauges(const ServerOptions& options, ServiceCore* core) {
                     [core] { return static_cast<double>(core->import_bytes.load()); });
   metrics->AddGauge("homing_journeys_deleted", "Journeys deleted by age or quota since the start",
                     [core] { return static_cast<double>(core->quota.deleted()); });
+  metrics->AddGauge("homing_robots_lost", "Robots that localise and are off every route",
+                    [core] { return static_cast<double>(core->fleet.Count().lost); });
+  metrics->AddGauge("homing_robots_localizing", "Robots that localise",
+                    [core] { return static_cast<double>(core->fleet.Count().localizing); });
+  metrics->AddGauge("homing_robots_recording", "Robots that record",
+                    [core] { return static_cast<double>(core->fleet.Count().recording); });
   if (!path.empty()) {
     metrics->AddGauge("homing_db_size_bytes", "The database with its journal",
                       [path] { return SizeOf(path) + SizeOf(path + "-wal"); });
+    metrics->AddGauge("homing_disk_free_bytes", "Room left where the database is",
+                      [path] { return FreeBytes(path); });
   }
   metrics->AddGauge("process_resident_memory_bytes", "Resident memory", ResidentBytes);
   metrics->AddGauge("process_open_fds", "Open file descriptors", OpenFiles);

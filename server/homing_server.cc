@@ -7,6 +7,7 @@
 #include <grpcpp/resource_quota.h>
 #include <spdlog/spdlog.h>
 
+#include <atomic>
 #include <chrono>
 #include <string>
 #include <thread>
@@ -17,8 +18,9 @@
 #include "homing/base/status_macros.h"
 #include "server/core_gauges.h"
 #include "server/housekeeping.h"
-#include "server/metrics/metrics_endpoint.h"
+#include "server/http/console_server.h"
 #include "server/service/deviation_model_service.h"
+#include "server/service/fleet_service.h"
 #include "server/service/homing_service.h"
 #include "server/service/journey_service.h"
 #include "server/service/store_service.h"
@@ -100,10 +102,11 @@ struct HomingServer::State {
         journeys(core.get()),
         homing(core.get()),
         models(core.get()),
-        whole(core.get()) {}
+        whole(core.get()),
+        fleet(core.get()) {}
 
   absl::Status Listen(const ServerOptions& options);
-  absl::Status ServeMetrics(const ServerOptions& options);
+  absl::Status ServeHttp(const ServerOptions& options);
 
   // Reset once drained.
   std::unique_ptr<ServiceCore> core;
@@ -111,12 +114,15 @@ struct HomingServer::State {
   HomingServiceHandler homing;
   DeviationModelServiceHandler models;
   StoreServiceHandler whole;
+  FleetServiceHandler fleet;
   std::unique_ptr<grpc::Server> server;
   // Must end before `server`, whose health it sets.
   std::unique_ptr<StoreWatch> watch;
-  std::unique_ptr<MetricsEndpoint> metrics;
+  std::unique_ptr<ConsoleServer> console;
   std::unique_ptr<Housekeeping> housekeeping;
   std::string address;
+  // The store works.
+  std::atomic<bool> well = true;
   std::chrono::milliseconds drain_time{};
 };
 
@@ -132,6 +138,7 @@ absl::Status HomingServer::State::Listen(const ServerOptions& options) {
   builder.RegisterService(&homing);
   builder.RegisterService(&models);
   builder.RegisterService(&whole);
+  builder.RegisterService(&fleet);
   server = builder.BuildAndStart();
   const bool is_socket_file = options.listen.rfind("unix:", 0) == 0;
   if (server == nullptr || (port <= 0 && !is_socket_file)) {
@@ -143,25 +150,35 @@ absl::Status HomingServer::State::Listen(const ServerOptions& options) {
                 ? options.listen
                 : absl::StrCat(options.listen.substr(0, options.listen.rfind(':')), ":", port);
   drain_time = std::chrono::milliseconds(options.drain_ms);
-  watch = std::make_unique<StoreWatch>(core->store.get(), [this](bool well) {
+  watch = std::make_unique<StoreWatch>(core->store.get(), [this](bool works) {
+    well = works;
     if (auto* health = server->GetHealthCheckService()) {
-      health->SetServingStatus(well);
+      health->SetServingStatus(works);
     }
   });
   return absl::OkStatus();
 }
 
-absl::Status HomingServer::State::ServeMetrics(const ServerOptions& options) {
+absl::Status HomingServer::State::ServeHttp(const ServerOptions& options) {
   if (!HasHttp(options)) {
     return absl::OkStatus();
   }
-  absl::StatusOr<std::unique_ptr<MetricsEndpoint>> started =
-      MetricsEndpoint::Start(options.http, *core->metrics);
+  grpc::ChannelArguments arguments;
+  arguments.SetMaxReceiveMessageSize(-1);
+  ConsoleContext context;
+  context.access = core->access.get();
+  context.channel = server->InProcessChannel(arguments);
+  context.metrics = [metrics = core->metrics.get()] { return metrics->Text(); };
+  context.healthy = [this] { return well && !core->streams.draining(); };
+  absl::StatusOr<std::unique_ptr<ConsoleServer>> started =
+      ConsoleServer::Start({options.http, options.tls_cert, options.tls_key, options.http_host,
+                            options.http_user_header},
+                           context);
   if (!started.ok() && options.http_optional) {
-    spdlog::warn("no metrics: {}", std::string(started.status().message()));
+    spdlog::warn("no console, no metrics: {}", std::string(started.status().message()));
     return absl::OkStatus();
   }
-  HOMING_ASSIGN_OR_RETURN(metrics, std::move(started));
+  HOMING_ASSIGN_OR_RETURN(console, std::move(started));
   return absl::OkStatus();
 }
 
@@ -172,7 +189,14 @@ HomingServer::~HomingServer() { Drain(); }
 const std::string& HomingServer::address() const { return state_->address; }
 
 std::string HomingServer::metrics_address() const {
-  return state_->metrics ? state_->metrics->address() : "";
+  return state_->console ? state_->console->address() : "";
+}
+
+std::string HomingServer::console_link(bool first_start) const {
+  if (!state_->console) return "";
+  if (state_->core->access->is_open() || !first_start) return state_->console->url();
+  const auto link = state_->console->MakeLoginLink("operators/first");
+  return link.ok() ? *link : state_->console->url();
 }
 
 std::string HomingServer::MetricsText() const {
@@ -193,10 +217,13 @@ absl::StatusOr<std::unique_ptr<HomingServer>> HomingServer::Start(
   auto state = std::make_unique<State>(std::move(store), std::move(access),
                                        CoreOptionsOf(options, std::move(clock)));
   AddCoreGauges(options, state->core.get());
-  HOMING_RETURN_IF_ERROR(state->ServeMetrics(options));
   HOMING_RETURN_IF_ERROR(state->Listen(options));
+  HOMING_RETURN_IF_ERROR(state->ServeHttp(options));
   state->housekeeping = std::make_unique<Housekeeping>(
-      state->core.get(), std::chrono::seconds(options.reload_s), CertificateFilesOf(options));
+      state->core.get(), std::chrono::seconds(options.reload_s), CertificateFilesOf(options),
+      [console = state->console.get()] {
+        return console == nullptr ? absl::OkStatus() : console->ReloadCertificate();
+      });
   return std::unique_ptr<HomingServer>(new HomingServer(std::move(state)));
 }
 
@@ -216,11 +243,11 @@ void HomingServer::Drain() {
     health->SetServingStatus(false);
   }
   state_->core->streams.Drain();
+  state_->console.reset();
   state_->server->Shutdown(std::chrono::system_clock::now() + state_->drain_time);
   state_->server->Wait();
   state_->core->streams.AwaitNone();
   state_->server.reset();
-  state_->metrics.reset();
   state_->core.reset();
 }
 

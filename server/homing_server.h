@@ -23,8 +23,11 @@ class HomingServer {
 
   // "host:port", with the port that was picked.
   const std::string& address() const;
-  // "host:port" of GET /metrics; empty without it.
+  // "host:port" of the console and of GET /metrics; empty without it.
   std::string metrics_address() const;
+  // What to open in a browser, if there is anything: where logins are needed and `first_start`,
+  // with a login that works once.
+  std::string console_link(bool first_start) const;
   // The answer of GET /metrics; empty once drained.
   std::string MetricsText() const;
   // Sets health to NOT_SERVING, ends streams with UNAVAILABLE, commits pending appends and closes

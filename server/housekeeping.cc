@@ -5,6 +5,7 @@
 #include <string>
 
 #include "homing/base/mutex.h"
+#include "server/service/fleet_service.h"
 
 namespace homing::server {
 namespace {
@@ -12,15 +13,18 @@ namespace {
 constexpr std::chrono::seconds kRound{1};
 // Journeys live for days.
 constexpr std::chrono::seconds kDeleteEvery{60};
+constexpr std::chrono::seconds kCountEvery{10};
 constexpr std::chrono::seconds kWarnEvery{86'400};
 
 }  // namespace
 
 Housekeeping::Housekeeping(ServiceCore* core, std::chrono::seconds reload_every,
-                           const CertificateFiles& certificates)
+                           const CertificateFiles& certificates,
+                           std::function<absl::Status()> reload_more)
     : core_(core),
       reload_every_(reload_every),
       certificates_(certificates),
+      reload_more_(std::move(reload_more)),
       thread_([this] { Run(); }) {}
 
 Housekeeping::~Housekeeping() {
@@ -41,6 +45,9 @@ void Housekeeping::Run() {
     if (round % kDeleteEvery.count() == 0) {
       DeleteExpired();
     }
+    if (round % kCountEvery.count() == 0) {
+      CountJourneys();
+    }
     if (round % kWarnEvery.count() == 0) {
       WarnOfExpiry();
     }
@@ -55,9 +62,19 @@ void Housekeeping::Run() {
 }
 
 void Housekeeping::Reload() {
-  if (const absl::Status status = core_->access->Reload(); !status.ok()) {
+  absl::Status status = core_->access->Reload();
+  if (reload_more_) status.Update(reload_more_());
+  if (!status.ok()) {
     spdlog::error("reload failed, keeping the previous configuration: {}",
                   std::string(status.message()));
+  }
+}
+
+// For those that watch the fleet: robots appear when their first journey is created.
+void Housekeeping::CountJourneys() {
+  if (!core_->fleet.IsFleetWatched()) return;
+  if (const absl::Status status = CountStoredJourneys(core_); !status.ok()) {
+    spdlog::error("the journeys cannot be counted: {}", std::string(status.message()));
   }
 }
 

@@ -4,6 +4,7 @@
 #define SERVER_HOUSEKEEPING_H_
 
 #include <chrono>
+#include <functional>
 #include <thread>
 
 #include "homing/base/mutex.h"
@@ -16,9 +17,10 @@ namespace homing::server {
 // One thread; the destructor waits for the current round.
 class Housekeeping {
  public:
-  // `core` must outlive it.
+  // `core` must outlive it. `reload_more` is called at each reload.
   Housekeeping(ServiceCore* core, std::chrono::seconds reload_every,
-               const CertificateFiles& certificates);
+               const CertificateFiles& certificates,
+               std::function<absl::Status()> reload_more = nullptr);
   ~Housekeeping();
   // Reads certificates, tokens and roles again. Thread-safe.
   void Reload();
@@ -29,6 +31,7 @@ class Housekeeping {
   void Run();
   void DeleteExpired();
   void WarnOfExpiry();
+  void CountJourneys();
 
   // Used by the thread alone.
   ClockWatch clock_;
@@ -36,6 +39,7 @@ class Housekeeping {
   ServiceCore* const core_;
   const std::chrono::seconds reload_every_;
   const CertificateFiles certificates_;
+  const std::function<absl::Status()> reload_more_;
   Mutex mutex_;
   ConditionVariable stop_;
   bool stopping_ HOMING_GUARDED_BY(mutex_) = false;

@@ -1,6 +1,7 @@
 // homing-server: options, signals, and the server's life.
 #include <csignal>
 #include <cstdio>
+#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <string>
@@ -17,6 +18,7 @@
 #include "server/process/lock_checks.h"
 #include "server/process/open_files.h"
 #include "server/rpc/library_log.h"
+#include "storage/database_url.h"
 
 // Read by jemalloc. One arena, because one of the few threads often frees what another allocated.
 // Free memory returns to the system soon: after a burst of a thousand robots it was as large as the
@@ -48,10 +50,18 @@ sigset_t BlockStopSignals() {
   return signals;
 }
 
+// Nobody has logged in yet.
+bool IsNewDatabase(const homing::server::ServerOptions& options) {
+  const auto path = homing::storage::ParseDatabaseUrl(options.database);
+  std::error_code error;
+  return path.ok() && !std::filesystem::exists(*path, error);
+}
+
 int Serve(const homing::server::ServerOptions& options) {
   const sigset_t signals = BlockStopSignals();
   homing::RaiseOpenFileLimit();
   homing::server::LimitLogOfLibraries();
+  const bool first_start = IsNewDatabase(options);
   const auto server = HomingServer::Start(options);
   if (!server.ok()) {
     return Report(server.status());
@@ -59,7 +69,10 @@ int Serve(const homing::server::ServerOptions& options) {
   // One write: a reader of the first line may close the pipe.
   std::string lines = "listening on " + (*server)->address() + "\n";
   if (!(*server)->metrics_address().empty()) {
-    lines += "metrics on http://" + (*server)->metrics_address() + "/metrics\n";
+    lines += "metrics on " + (*server)->console_link(false) + "/metrics\n";
+  }
+  if (const std::string link = (*server)->console_link(first_start); !link.empty()) {
+    lines += "console: " + link + "\n";
   }
   std::cout << lines << std::flush;
   int signal = 0;

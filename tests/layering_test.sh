@@ -13,7 +13,7 @@ below_landmark='homing/flow homing/image homing/base'
 below_journey="homing/similarity homing/landmark $below_landmark"
 below_matching="homing/journey $below_journey"
 messages='proto/wire homing/v1'
-gates='server/access server/admission server/metrics'
+gates='server/fleet server/access server/admission server/metrics'
 kept="server/base storage homing/"
 rules="
 homing/base         homing/base
@@ -35,9 +35,11 @@ server/catalog      server/catalog $kept
 server/access       server/access server/catalog $kept
 server/admission    server/admission server/catalog $kept
 server/metrics      server/metrics server/access $kept
+server/fleet        server/fleet homing/base homing/v1
 server/session      server/session server/catalog $kept
 server/rpc          server/rpc server/session $gates server/catalog $kept $messages google/rpc
 server/service      server/service server/rpc server/session $gates server/catalog $kept $messages google/rpc
+server/http         server/http server/rpc server/session $gates server/catalog $kept $messages
 server/config       server/config cli server/access server/admission $kept grpc/health/
 server              server/ storage homing/ $messages google/rpc grpc/health/
 client/simulator    client/simulator homing/flow homing/image homing/base

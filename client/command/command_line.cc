@@ -74,6 +74,7 @@ void AddCommandLine(CLI::App& app, Session& session, const char* version) {
   AddDrawCommand(app, session);
   AddBackupCommand(app, session);
   AddDriveCommand(app, session);
+  AddTopCommand(app, session);
   AddEvaluateCommand(app, session);
   AddExamples(app, kExamples);
   AddDocumentationFlag(app, Page(version));

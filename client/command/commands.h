@@ -17,6 +17,7 @@ void AddSimulateCommand(CLI::App& app, Session& session);
 void AddDrawCommand(CLI::App& app, Session& session);
 void AddBackupCommand(CLI::App& app, Session& session);
 void AddDriveCommand(CLI::App& app, Session& session);
+void AddTopCommand(CLI::App& app, Session& session);
 void AddEvaluateCommand(CLI::App& app, Session& session);
 
 }  // namespace homing::client

@@ -24,6 +24,7 @@ struct LocalizeFlags {
   RobotFlags robot;
   std::string journey;
   std::string travel = "return";
+  std::string robot_name;
   double threshold = 0.20;
   int matches = 10;
   int tolerance = 10;
@@ -40,6 +41,7 @@ LocalizingOptions MakeOptions(const LocalizeFlags& flags, const Cameras& cameras
   options.window = flags.window;
   v1::LocalizeConfig& config = options.config;
   config.set_journey(flags.journey);
+  config.set_robot(flags.robot_name);
   config.set_travel(ToTravel(flags.travel));
   if (auto camera = CameraOf(flags.robot, cameras, Side::kLeft)) {
     *config.mutable_left_camera() = *std::move(camera);
@@ -161,6 +163,10 @@ void AddLocalizeCommand(CLI::App& app, Session& session) {
   AddJourneyFlag(command, flags->journey, /*wildcards=*/true);
   AddRobotFlags(command, flags->robot);
   AddTravelFlag(command, flags->travel);
+  command.add_option(
+      "--robot", flags->robot_name,
+      "robots/ROBOT that localises, as `homing top` shows it; by default the robot in the "
+      "journey's name");
   command.add_option("--threshold", flags->threshold, "Least P_T of a match")
       ->check(CLI::Range(0.0, 1.0))
       ->capture_default_str();

@@ -68,6 +68,9 @@ class Localizer {
   absl::StatusOr<Localization> Localize(const Observation& observation,
                                         std::span<const JourneyRef> journeys);
 
+  // As PositionFilter::masses.
+  const std::vector<StepMass>& masses() const { return filter_.masses(); }
+
  private:
   // This robot's cameras, with the sizes that they must have. FAILED_PRECONDITION.
   absl::StatusOr<std::array<Camera, 2>> CamerasFor(std::span<const JourneyRef> journeys) const;

@@ -91,6 +91,10 @@ class PositionFilter {
   Position Update(std::span<const JourneyRef> journeys, Motion motion, const SeenSides& seen,
                   const SeenProfiles& profiles = {});
 
+  // After the last observation: by journey, the steps that are held one by one and where the robot
+  // may be among them.
+  const std::vector<StepMass>& masses() const { return masses_; }
+
  private:
   // Takes up new journeys and steps.
   void Grow(std::span<const JourneyRef> journeys);

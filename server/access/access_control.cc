@@ -86,6 +86,26 @@ absl::Status AccessControl::CheckCertificate(const std::string& chain_pem) const
   return certificates_ ? certificates_->Check(chain_pem) : absl::OkStatus();
 }
 
+absl::StatusOr<std::string> AccessControl::LendToken(const std::string& identity) {
+  HOMING_RETURN_IF_ERROR(CheckIdentity(identity, "identity"));
+  HOMING_ASSIGN_OR_RETURN(std::string token, MakeToken());
+  const MutexLock lock(mutex_);
+  lent_[HashToken(token)] = identity;
+  return token;
+}
+
+void AccessControl::WithdrawToken(const std::string& token) {
+  const MutexLock lock(mutex_);
+  lent_.erase(HashToken(token));
+}
+
+// A search by the hash reveals nothing about the token.
+std::optional<std::string> AccessControl::FindLent(const std::string& token) const {
+  const MutexLock lock(mutex_);
+  const auto found = lent_.find(HashToken(token));
+  return found == lent_.end() ? std::nullopt : std::optional(found->second);
+}
+
 absl::StatusOr<std::string> AccessControl::IdentityOfToken(const Credentials& credentials) const {
   const std::string& header = credentials.authorizations.front();
   if (credentials.authorizations.size() > 1 ||
@@ -98,6 +118,7 @@ absl::StatusOr<std::string> AccessControl::IdentityOfToken(const Credentials& cr
     tokens = tokens_;
   }
   auto identity = tokens->Find(header.substr(kBearerSize));
+  if (!identity) identity = FindLent(header.substr(kBearerSize));
   if (!identity) {
     return Unauthenticated("BAD_TOKEN", "the token is not one of this server's");
   }

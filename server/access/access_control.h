@@ -2,6 +2,7 @@
 #ifndef SERVER_ACCESS_ACCESS_CONTROL_H_
 #define SERVER_ACCESS_ACCESS_CONTROL_H_
 
+#include <map>
 #include <memory>
 #include <string>
 
@@ -38,6 +39,11 @@ class AccessControl {
   // As ClientCertificates::Check; OK when no client CA is set.
   absl::Status CheckCertificate(const std::string& chain_pem) const;
 
+  // Makes a token for a login by other means, valid until WithdrawToken or the end of the process;
+  // its role is that of the identity. INTERNAL: the system provides no random bits.
+  absl::StatusOr<std::string> LendToken(const std::string& identity);
+  void WithdrawToken(const std::string& token);
+
   // Reads all files again. A file that cannot be read, or is being written, keeps its previous
   // content. Returns the first error.
   absl::Status Reload();
@@ -46,6 +52,8 @@ class AccessControl {
   explicit AccessControl(const AccessFiles& files);
   absl::Status ReadTokens();
   absl::Status ReadFiles(bool (*is_due)(const std::string& path));
+  // The identity that a token was lent to.
+  std::optional<std::string> FindLent(const std::string& token) const;
   absl::StatusOr<std::string> IdentityOfToken(const Credentials& credentials) const;
   absl::StatusOr<std::string> IdentityOfCertificate(const Credentials& credentials) const;
 
@@ -55,6 +63,7 @@ class AccessControl {
   mutable Mutex mutex_;
   std::shared_ptr<const TokenBook> tokens_ HOMING_GUARDED_BY(mutex_) =
       std::make_shared<TokenBook>();
+  std::map<TokenHash, std::string> lent_ HOMING_GUARDED_BY(mutex_);
   std::shared_ptr<const RoleBook> roles_ HOMING_GUARDED_BY(mutex_) = std::make_shared<RoleBook>();
 };
 

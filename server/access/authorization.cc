@@ -41,7 +41,7 @@ struct Target {
 
 absl::StatusOr<Target> ParseTarget(Rpc rpc, const std::string& resource) {
   const std::string field(TraitsOf(rpc).field);
-  if (rpc == Rpc::kCreateJourney || rpc == Rpc::kListJourneys) {
+  if (rpc == Rpc::kCreateJourney || rpc == Rpc::kListJourneys || rpc == Rpc::kWatchRobot) {
     HOMING_ASSIGN_OR_RETURN(const std::string robot,
                             ParseRobotName(resource, field, rpc == Rpc::kListJourneys));
     return Target{{robot, kWildcard}, true};
@@ -68,6 +68,10 @@ absl::Status Authorize(const Caller& caller, Rpc rpc, const std::string& resourc
   // The caller is refused for every resource.
   if (!Allows(caller.role, right, Standing::kOwner)) {
     return Denied(caller, rpc, resource);
+  }
+  // Without a resource the answer holds only what belongs to the caller.
+  if (TraitsOf(rpc).field.empty()) {
+    return absl::OkStatus();
   }
   HOMING_ASSIGN_OR_RETURN(const Target target, ParseTarget(rpc, resource));
   const bool reads = Allows(caller.role, right, Standing::kReader);
@@ -98,6 +102,11 @@ JourneyFilter JourneysFor(const Caller& caller, Rpc rpc) {
   return [caller, right](const storage::JourneyRecord& record) {
     return Allows(caller.role, right, StandingOf(caller, record));
   };
+}
+
+bool SeesRobot(const Caller& caller, const std::string& robot) {
+  const bool own = !caller.robot().empty() && robot == caller.identity;
+  return Allows(caller.role, Right::kSeeFleet, own ? Standing::kOwner : Standing::kOther);
 }
 
 }  // namespace homing::server

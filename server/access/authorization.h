@@ -21,6 +21,9 @@ absl::Status Authorize(const Caller& caller, Rpc rpc, const std::string& resourc
 // The journeys of a pattern that the caller may use. Empty: all.
 JourneyFilter JourneysFor(const Caller& caller, Rpc rpc);
 
+// The caller may see the live state of `robot`, "robots/r1".
+bool SeesRobot(const Caller& caller, const std::string& robot);
+
 }  // namespace homing::server
 
 #endif  // SERVER_ACCESS_AUTHORIZATION_H_

@@ -16,13 +16,15 @@ constexpr std::array<std::pair<Role, const char*>, 5> kNames = {{
 
 bool AllowsLocalizeOnly(Right right, Standing standing) {
   const bool reads = right == Right::kSee || right == Right::kLocalize;
-  return right == Right::kSeeModels || (reads && standing != Standing::kOther);
+  return right == Right::kSeeModels || (reads && standing != Standing::kOther) ||
+         (right == Right::kSeeFleet && standing == Standing::kOwner);
 }
 
 bool AllowsRobot(Right right, Standing standing) {
   switch (right) {
     case Right::kWrite:
     case Right::kDelete:
+    case Right::kSeeFleet:
       return standing == Standing::kOwner;
     case Right::kSee:
     case Right::kTakeMap:

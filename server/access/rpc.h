@@ -25,6 +25,9 @@ enum class Rpc {
   kGetDeviationModel,
   kListDeviationModels,
   kBackUpStore,
+  kListRobots,
+  kWatchFleet,
+  kWatchRobot,
 };
 
 // The kind of access that a method needs.
@@ -43,6 +46,8 @@ enum class Right {
   kSeeModels,
   // Reads the whole store.
   kBackUp,
+  // Sees the live state of robots.
+  kSeeFleet,
 };
 
 struct RpcTraits {
@@ -54,7 +59,7 @@ struct RpcTraits {
   std::string_view field;
 };
 
-inline constexpr std::array<RpcTraits, 17> kRpcs = {{
+inline constexpr std::array<RpcTraits, 20> kRpcs = {{
     {Rpc::kCreateJourney, "homing.v1.JourneyService/CreateJourney", Right::kWrite, "parent"},
     {Rpc::kGetJourney, "homing.v1.JourneyService/GetJourney", Right::kSee, "name"},
     {Rpc::kListJourneys, "homing.v1.JourneyService/ListJourneys", Right::kSee, "parent"},
@@ -76,6 +81,9 @@ inline constexpr std::array<RpcTraits, 17> kRpcs = {{
     {Rpc::kListDeviationModels, "homing.v1.DeviationModelService/ListDeviationModels",
      Right::kSeeModels, ""},
     {Rpc::kBackUpStore, "homing.v1.StoreService/BackUpStore", Right::kBackUp, ""},
+    {Rpc::kListRobots, "homing.v1.FleetService/ListRobots", Right::kSeeFleet, ""},
+    {Rpc::kWatchFleet, "homing.v1.FleetService/WatchFleet", Right::kSeeFleet, ""},
+    {Rpc::kWatchRobot, "homing.v1.FleetService/WatchRobot", Right::kSeeFleet, "name"},
 }};
 
 // In the order of Rpc.

@@ -60,9 +60,10 @@ absl::Status Validate(const ServerOptions& options) {
   if (HasHttp(options)) {
     HOMING_RETURN_IF_ERROR(ParseHostPort("http", options.http, 0).status());
   }
-  if (HasHttp(options) && !options.insecure && !IsLoopback(options.http)) {
+  if (HasHttp(options) && options.tls_cert.empty() && !options.insecure &&
+      !IsLoopback(options.http)) {
     return TextMustBe("http", options.http,
-                      "a loopback address, because it has no TLS; or set insecure");
+                      "a loopback address without TLS; set tls-cert and tls-key, or insecure");
   }
   if (options.tls_cert.empty() && !options.insecure && !IsLoopback(options.listen)) {
     return TextMustBe("listen", options.listen,

@@ -30,10 +30,15 @@ struct ServerOptions {
   std::string roles;
   // Interval at which these files are read again, s.
   int reload_s = 5;
-  // Address of GET /metrics, host and port; "off" or empty: none.
+  // Address of the console and of GET /metrics, host and port; "off" or empty: none. With tls_cert
+  // it speaks TLS.
   std::string http = "off";
   // http has its default: start without it if the address is not available.
   bool http_optional = false;
+  // Names, separated by commas, by which browsers reach it; "localhost" and addresses are known.
+  std::string http_host;
+  // The header in which a proxy, which alone may reach it, names its user: "operators/USER".
+  std::string http_user_header;
   Limits limits;
   // Largest message accepted, bytes.
   std::int64_t max_message = std::int64_t{16} << 20;

@@ -1,8 +1,11 @@
 #include "server/metrics/metrics_registry.h"
 
+#include <chrono>
+#include <string>
 #include <utility>
 
 #include "homing/base/mutex.h"
+#include "server/base/error_reason.h"
 
 namespace homing::server {
 namespace {
@@ -17,6 +20,40 @@ Family<prometheus::Counter>& Counters(prometheus::Registry* registry, const char
 Family<prometheus::Histogram>& Histograms(prometheus::Registry* registry, const char* name,
                                           const char* help) {
   return prometheus::BuildHistogram().Name(name).Help(help).Register(*registry);
+}
+
+// The reasons that the server gives, with their codes; others have the code as their reason.
+constexpr std::pair<const char*, const char*> kReasons[] = {
+    {"UNAUTHENTICATED", "NO_CREDENTIALS"},
+    {"UNAUTHENTICATED", "BAD_TOKEN"},
+    {"UNAUTHENTICATED", "ROLE_CHANGED"},
+    {"PERMISSION_DENIED", "NOT_ALLOWED"},
+    {"RESOURCE_EXHAUSTED", "STREAMS"},
+    {"RESOURCE_EXHAUSTED", "ROBOT_STREAMS"},
+    {"RESOURCE_EXHAUSTED", "RATE"},
+    {"RESOURCE_EXHAUSTED", "IMPORT_MEMORY"},
+    {"RESOURCE_EXHAUSTED", "MAP_CACHE"},
+    {"RESOURCE_EXHAUSTED", "BUSY"},
+    {"OUT_OF_RANGE", "SEQUENCE_GAP"},
+    {"UNAVAILABLE", "IDLE"},
+    {"UNAVAILABLE", "DRAINING"},
+    {"UNAVAILABLE", "INDEX_NOT_READY"},
+    {"ABORTED", "WRITER_REPLACED"},
+    {"ABORTED", "WRITER_LEASE_HELD"},
+    {"ABORTED", "JOURNEY_DELETED"},
+    {"FAILED_PRECONDITION", "JOURNEY_FINISHED"},
+    {"FAILED_PRECONDITION", "OTHER_INPUT"},
+    {"FAILED_PRECONDITION", "OTHER_SETTINGS"},
+    {"UNAUTHENTICATED", "BAD_CERTIFICATE"},
+};
+
+void AddErrors(Family<prometheus::Counter>* errors) {
+  for (int code = 1; code <= 16; ++code) {
+    const absl::Status status(static_cast<absl::StatusCode>(code), "");
+    errors->Add({{"code", std::string(absl::StatusCodeToString(status.code()))},
+                 {"reason", ReasonOf(status).reason}});
+  }
+  for (const auto& [code, reason] : kReasons) errors->Add({{"code", code}, {"reason", reason}});
 }
 
 }  // namespace
@@ -67,6 +104,34 @@ Metrics::State::State()
                            .Add({}, kWorkSeconds)),
       commit_seconds(Histograms(registry.get(), "homing_db_commit_duration_seconds",
                                 "One transaction of recorded steps, to the disk and back")
-                         .Add({}, kWorkSeconds)) {}
+                         .Add({}, kWorkSeconds)) {
+  // Each series exists from the start: otherwise rate() misses the first event.
+  for (const RpcTraits& traits : kRpcs) {
+    const std::string method(traits.method);
+    started.Add({{"grpc_method", method}});
+    duration.Add({{"grpc_method", method}, {"grpc_status", "OK"}}, kCallSeconds);
+    if (traits.right == Right::kLocalize || traits.right == Right::kWrite) {
+      observations.Add({{"grpc_method", method}});
+    }
+  }
+  for (const char* outcome : {"MATCH", "AMBIGUOUS", "UNKNOWN_PLACE"}) {
+    outcomes.Add({{"outcome", outcome}});
+  }
+  for (const char* result : {"ok", "failed"}) commits.Add({{"result", result}});
+  AddErrors(&errors);
+  prometheus::BuildGauge()
+      .Name("homing_build_info")
+      .Help("1, with the version of the server")
+      .Register(*registry)
+      .Add({{"version", HOMING_VERSION}})
+      .Set(1);
+  prometheus::BuildGauge()
+      .Name("process_start_time_seconds")
+      .Help("When the server started, Unix time")
+      .Register(*registry)
+      .Add({})
+      .Set(std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch())
+               .count());
+}
 
 }  // namespace homing::server

@@ -3,9 +3,11 @@
 #include <google/protobuf/descriptor.h>
 #include <grpc/grpc_security_constants.h>
 #include <grpcpp/security/auth_context.h>
+#include <spdlog/spdlog.h>
 
 #include <vector>
 
+#include "absl/strings/escaping.h"
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_replace.h"
 #include "homing/base/mutex.h"
@@ -15,6 +17,9 @@
 
 namespace homing::server {
 namespace {
+
+// Of a resource in the log.
+constexpr std::size_t kMaxShown = 200;
 
 const google::protobuf::Descriptor* RequestOf(Rpc rpc) {
   const std::string method = absl::StrReplaceAll(std::string(TraitsOf(rpc).method), {{"/", "."}});
@@ -48,6 +53,13 @@ Credentials CredentialsOf(const grpc::ServerContextBase& context) {
     }
   }
   return credentials;
+}
+
+// Changes that an operator may ask about later; recording itself is not one.
+bool IsAudited(Rpc rpc) {
+  const Right right = TraitsOf(rpc).right;
+  return right == Right::kDelete || right == Right::kTrain || right == Right::kBackUp ||
+         (right == Right::kWrite && rpc != Rpc::kRecordJourney);
 }
 
 // "robots/r" in the name of a resource; empty if it does not name one robot.
@@ -103,8 +115,24 @@ absl::Status IncomingCall::EnterStream() {
   return absl::OkStatus();
 }
 
+absl::Status IncomingCall::EnterWatch() {
+  HOMING_RETURN_IF_ERROR(identified_);
+  const MutexLock lock(mutex_);
+  HOMING_ASSIGN_OR_RETURN(place_, core_->places.Enter(""));
+  return absl::OkStatus();
+}
+
+std::string IncomingCall::RobotOf(const std::string& said, const std::string& journey) const {
+  if (!caller_.robot().empty()) return caller_.identity;
+  return said.empty() ? RobotNamed(journey) : said;
+}
+
 absl::Status IncomingCall::Authorize(const std::string& resource) {
   HOMING_RETURN_IF_ERROR(identified_);
+  {
+    const MutexLock lock(mutex_);
+    resource_ = absl::CHexEscape(resource.substr(0, kMaxShown));
+  }
   HOMING_RETURN_IF_ERROR(server::Authorize(caller_, rpc_, resource, &core_->catalog));
   if (core_->access->is_open()) {
     robot_ = RobotNamed(resource);
@@ -130,6 +158,10 @@ grpc::Status IncomingCall::Finish(const absl::Status& status) {
     const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin_;
     core_->metrics->CallEnded(rpc_, status, elapsed.count());
     const MutexLock lock(mutex_);
+    if (IsAudited(rpc_)) {
+      spdlog::info("audit: {} {} \"{}\": {}", caller_.identity.empty() ? "-" : caller_.identity,
+                   TraitsOf(rpc_).method, resource_, absl::StatusCodeToString(status.code()));
+    }
     place_.Leave();
   }
   return ToGrpcStatus(status, absl::IsInvalidArgument(status) ? RequestOf(rpc_) : nullptr);

@@ -31,11 +31,18 @@ class IncomingCall {
   absl::Status CheckIdentity() const;
   // Counts the call as an open stream. RESOURCE_EXHAUSTED.
   absl::Status EnterStream();
+  // As EnterStream, for a stream that only watches: it counts in the total alone.
+  absl::Status EnterWatch();
   // Checks that the caller may do this to `resource`, as server::Authorize; for a stream also the
   // robot's limit of streams. Not for gRPC's threads: it may read the store.
   absl::Status Authorize(const std::string& resource);
   // Selects the journeys of a pattern that the caller may use.
   JourneyFilter filter() const { return JourneysFor(caller_, rpc_); }
+  // The caller may see the live state of `robot`.
+  bool SeesRobot(const std::string& robot) const { return server::SeesRobot(caller_, robot); }
+  // "robots/r": the caller if it is a robot, else the robot that the request says or that its
+  // journey names; empty: none.
+  std::string RobotOf(const std::string& said, const std::string& journey) const;
   // Counts one observation. RESOURCE_EXHAUSTED: the robot's rate is too high.
   absl::Status TakeObservation();
 
@@ -57,6 +64,8 @@ class IncomingCall {
   std::atomic<bool> finished_ = false;
 
   Mutex mutex_;
+  // For the log.
+  std::string resource_ HOMING_GUARDED_BY(mutex_);
   bool is_stream_ HOMING_GUARDED_BY(mutex_) = false;
   StreamLimiter::Place place_ HOMING_GUARDED_BY(mutex_);
 };

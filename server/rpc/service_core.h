@@ -20,6 +20,7 @@
 #include "server/catalog/journey_catalog.h"
 #include "server/catalog/journey_follower.h"
 #include "server/catalog/model_catalog.h"
+#include "server/fleet/fleet_board.h"
 #include "server/metrics/metrics.h"
 #include "server/rpc/stream_registry.h"
 #include "server/session/recording_session.h"
@@ -47,6 +48,13 @@ inline storage::CommitQueueOptions QueueOptions(Metrics* metrics) {
     metrics->Committed(stored, ok, time.count());
   };
   return options;
+}
+
+// Server's clock, nanoseconds since the epoch.
+inline std::int64_t WallClockNs() {
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(
+             std::chrono::system_clock::now().time_since_epoch())
+      .count();
 }
 
 // The order of destruction is the reverse: first the workers, then the commit queue, then the
@@ -79,6 +87,8 @@ struct ServiceCore {
   const std::unique_ptr<storage::JourneyStore> store;
   // Null without all_journeys_index.
   const std::unique_ptr<FleetIndex> index;
+  // Before the catalog, whose writers may hold a place on it.
+  FleetBoard fleet{WallClockNs};
   JourneyCatalog catalog;
   // Null unless other servers write to the store.
   const std::unique_ptr<JourneyFollower> follower;
@@ -92,13 +102,6 @@ struct ServiceCore {
   StreamRegistry streams;
   WorkerPool pool;
 };
-
-// Server's clock, nanoseconds since the epoch.
-inline std::int64_t WallClockNs() {
-  return std::chrono::duration_cast<std::chrono::nanoseconds>(
-             std::chrono::system_clock::now().time_since_epoch())
-      .count();
-}
 
 }  // namespace homing::server
 

@@ -6,6 +6,7 @@
 
 #include <memory>
 #include <string>
+#include <type_traits>
 #include <utility>
 
 #include "server/rpc/incoming_call.h"
@@ -14,9 +15,9 @@
 
 namespace homing::server {
 
-// `call` is absl::Status(const JourneyFilter&). It runs only if the caller may do this to
-// `resource`, and may use the RPC's request and response, which outlive it. For a pattern it must
-// apply the filter.
+// `call` is absl::Status(const JourneyFilter&), or takes the IncomingCall too. It runs only if the
+// caller may do this to `resource`, and may use the RPC's request and response, which outlive it.
+// For a pattern it must apply the filter.
 template <typename Call>
 grpc::ServerUnaryReactor* ServeUnary(ServiceCore* core, grpc::CallbackServerContext* context,
                                      Rpc rpc, const std::string& resource, Call call) {
@@ -29,7 +30,12 @@ grpc::ServerUnaryReactor* ServeUnary(ServiceCore* core, grpc::CallbackServerCont
              core->pool.TryRun([reactor, incoming, resource, call = std::move(call)] {
                reactor->Finish(incoming->Finish(Guarded([&] {
                  const absl::Status allowed = incoming->Authorize(resource);
-                 return allowed.ok() ? call(incoming->filter()) : allowed;
+                 if (!allowed.ok()) return allowed;
+                 if constexpr (std::is_invocable_v<Call, JourneyFilter, const IncomingCall&>) {
+                   return call(incoming->filter(), *incoming);
+                 } else {
+                   return call(incoming->filter());
+                 }
                })));
              })) {
     return reactor;

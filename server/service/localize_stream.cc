@@ -2,9 +2,15 @@
 
 #include "homing/base/field_error.h"
 #include "homing/base/status_macros.h"
+#include "server/base/resource_name.h"
 #include "server/service/message_conversion.h"
 
 namespace homing::server {
+namespace {
+
+constexpr std::size_t kMaxMasses = 400;
+
+}  // namespace
 
 absl::Status LocalizeStream::Handle(const v1::LocalizeRequest& request) {
   switch (request.request_case()) {
@@ -27,6 +33,11 @@ absl::Status LocalizeStream::Begin(const v1::LocalizeConfig& config) {
   query.filter = call().filter();
   HOMING_ASSIGN_OR_RETURN(
       session_, LocalizationSession::Open(&core()->catalog, query, core()->options.decode));
+  const std::string robot = call().RobotOf(config.robot(), config.journey());
+  if (!robot.empty()) {
+    HOMING_RETURN_IF_ERROR(ParseRobotName(robot, "config.robot", false).status());
+  }
+  presence_ = core()->fleet.Enter(robot, v1::ACTIVITY_LOCALIZING, config.journey());
   NoAnswer();
   return absl::OkStatus();
 }
@@ -42,9 +53,24 @@ absl::Status LocalizeStream::Localize(const v1::Observation& observation) {
   HOMING_ASSIGN_OR_RETURN(const Localization localization, session_->Localize(decoded));
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin;
   core()->metrics->ObservationLocalized(localization.position.outcome, elapsed.count());
-  Answer(
-      [&](v1::LocalizeResponse* answer) { EncodeLocalization(localization, *session_, answer); });
+  Answer([&](v1::LocalizeResponse* answer) {
+    EncodeLocalization(localization, *session_, answer);
+    if (presence_) Report(*answer, localization.position.journey);
+  });
   return absl::OkStatus();
+}
+
+void LocalizeStream::Report(const v1::LocalizeResponse& answer, int journey) {
+  v1::Belief message;
+  if (presence_->IsWatched()) {
+    const LocalizationSession::Belief belief = session_->BeliefOn(journey, kMaxMasses);
+    message.set_journey(session_->journey_name(journey));
+    message.set_step_count(belief.step_count);
+    message.set_first_step(belief.first_step);
+    message.set_steps_each(belief.steps_each);
+    message.mutable_masses()->Assign(belief.masses.begin(), belief.masses.end());
+  }
+  presence_->ReportAnswer(answer, std::move(message));
 }
 
 }  // namespace homing::server

@@ -17,13 +17,20 @@ class LocalizeStream final : public BidiStream<v1::LocalizeRequest, v1::Localize
 
  protected:
   absl::Status Handle(const v1::LocalizeRequest& request) override;
-  void HandleDone() override { session_.reset(); }
+  void HandleDone() override {
+    session_.reset();
+    presence_.reset();
+  }
 
  private:
   absl::Status Begin(const v1::LocalizeConfig& config);
   absl::Status Localize(const v1::Observation& observation);
+  // To those that watch the fleet.
+  void Report(const v1::LocalizeResponse& answer, int journey);
 
   std::unique_ptr<LocalizationSession> session_;
+  // Null: the stream belongs to no robot.
+  std::unique_ptr<FleetBoard::Presence> presence_;
 };
 
 }  // namespace homing::server

@@ -36,8 +36,12 @@ absl::Status RecordStream::Begin(const v1::RecordingConfig& config) {
   HOMING_RETURN_IF_ERROR(core()->quota.CheckGrowth(config.journey()));
   journey_ = config.journey();
   const std::weak_ptr<BidiStream> weak = weak_from_this();
+  presence_ = core()->fleet.Enter(call().RobotOf("", journey_), v1::ACTIVITY_RECORDING, journey_);
   RecordingListener listener;
-  listener.answer = [weak](const RecordingAnswer& answer) {
+  listener.answer = [weak, watched = std::weak_ptr(presence_)](const RecordingAnswer& answer) {
+    if (const auto presence = watched.lock(); presence && answer.step) {
+      presence->ReportSteps(answer.step->step + 1);
+    }
     if (const auto stream = std::static_pointer_cast<RecordStream>(weak.lock())) {
       stream->Answer(
           [&](v1::RecordJourneyResponse* message) { EncodeRecordingAnswer(answer, message); });

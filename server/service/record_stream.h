@@ -20,7 +20,10 @@ class RecordStream final : public BidiStream<v1::RecordJourneyRequest, v1::Recor
   absl::Status Handle(const v1::RecordJourneyRequest& request) override;
   // After the pending appends are committed.
   void EndInTurn(const absl::Status& status) override;
-  void HandleDone() override { session_.reset(); }
+  void HandleDone() override {
+    session_.reset();
+    presence_.reset();
+  }
 
  private:
   absl::Status Begin(const v1::RecordingConfig& config);
@@ -29,6 +32,7 @@ class RecordStream final : public BidiStream<v1::RecordJourneyRequest, v1::Recor
 
   std::shared_ptr<RecordingSession> session_;
   std::string journey_;
+  std::shared_ptr<FleetBoard::Presence> presence_;
   std::int64_t observations_ = 0;
 };
 

@@ -1,5 +1,6 @@
 #include "server/session/localization_session.h"
 
+#include <algorithm>
 #include <utility>
 #include <vector>
 
@@ -115,6 +116,20 @@ absl::StatusOr<Localization> LocalizationSession::Localize(const Observation& ob
                           localizer_->Localize(observation, RefsOf(journeys_)));
   due_ = observation.sequence + 1;
   return result;
+}
+
+LocalizationSession::Belief LocalizationSession::BeliefOn(int journey, std::size_t most) const {
+  Belief belief;
+  const auto index = static_cast<std::size_t>(journey);
+  if (!localizer_ || index >= localizer_->masses().size()) return belief;
+  const StepMass& held = localizer_->masses()[index];
+  const std::size_t each = std::max<std::size_t>(1, (held.mass.size() + most - 1) / most);
+  belief.step_count = journeys_[index]->record().step_count;
+  belief.first_step = held.first;
+  belief.steps_each = static_cast<std::int64_t>(each);
+  belief.masses.assign((held.mass.size() + each - 1) / each, 0);
+  for (std::size_t i = 0; i < held.mass.size(); ++i) belief.masses[i / each] += held.mass[i];
+  return belief;
 }
 
 }  // namespace homing::server

@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "absl/status/statusor.h"
 #include "homing/localization/localizer.h"
@@ -45,6 +46,17 @@ class LocalizationSession {
   // NOT_FOUND: the named journey was deleted. FAILED_PRECONDITION: other camera or settings.
   // INVALID_ARGUMENT. RESOURCE_EXHAUSTED: as JourneyCatalog::LoadMaps.
   absl::StatusOr<Localization> Localize(const Observation& observation);
+
+  // Where the robot may be on one journey after the last observation, in at most `most` groups of
+  // consecutive steps.
+  struct Belief {
+    std::int64_t step_count = 0;
+    std::int64_t first_step = 0;
+    std::int64_t steps_each = 1;
+    std::vector<float> masses;
+  };
+  // Empty before the first observation.
+  Belief BeliefOn(int journey, std::size_t most) const;
 
   // Of the journey that a Localization numbers.
   const std::string& journey_name(int index) const {

@@ -28,7 +28,7 @@ constexpr char kFleet[] = "robots/owner/journeys/fleet";
 constexpr char kGuides[] = "robots/guide/journeys/own";
 
 // The rights of a caller to a journey, a letter each: Write, Delete, See, take Map, Localize,
-// Train, see models, take a Backup.
+// Train, see models, take a Backup, see the Fleet (of its robot).
 struct Row {
   const char* identity;
   const char* journey;
@@ -36,11 +36,11 @@ struct Row {
 };
 
 constexpr Row kRows[] = {
-    {"operators/chief", kPrivate, "WDSMLTmB"},
-    {"operators/anna", kPrivate, "DSMLTmB"},
-    {"operators/anna", kFleet, "DSMLTmB"},
-    {"robots/owner", kPrivate, "WDSMLm"},
-    {"robots/owner", kListed, "WDSMLm"},
+    {"operators/chief", kPrivate, "WDSMLTmBF"},
+    {"operators/anna", kPrivate, "DSMLTmBF"},
+    {"operators/anna", kFleet, "DSMLTmBF"},
+    {"robots/owner", kPrivate, "WDSMLmF"},
+    {"robots/owner", kListed, "WDSMLmF"},
     {"robots/owner", kGuides, "m"},
     {"robots/reader", kPrivate, "m"},
     {"robots/reader", kListed, "SMLm"},
@@ -51,12 +51,12 @@ constexpr Row kRows[] = {
     {"robots/guide", kPrivate, "m"},
     {"robots/guide", kListed, "SLm"},
     {"robots/guide", kFleet, "SLm"},
-    {"robots/guide", kGuides, "SLm"},
+    {"robots/guide", kGuides, "SLmF"},
     {"robots/banned", kPrivate, ""},
     {"robots/banned", kFleet, ""},
 };
 
-char LetterOf(Right right) { return "WDSMLTmB"[static_cast<std::size_t>(right)]; }
+char LetterOf(Right right) { return "WDSMLTmBF"[static_cast<std::size_t>(right)]; }
 
 // Without and with the index of all journeys, which must not know more than the scan.
 class AccessTableTest : public ServerTest, public ::testing::WithParamInterface<bool> {
@@ -115,7 +115,8 @@ INSTANTIATE_TEST_SUITE_P(Index, AccessTableTest, ::testing::Bool(), [](const aut
 
 // A list holds visible journeys only: a caller that may see any journey may list.
 bool IsAllowed(const Row& row, const RpcTraits& traits) {
-  if (traits.rpc == Rpc::kListJourneys) {
+  const bool lists_robots = traits.right == Right::kSeeFleet && traits.field.empty();
+  if (traits.rpc == Rpc::kListJourneys || lists_robots) {
     return std::string(row.rights) != "";
   }
   return std::string(row.rights).find(LetterOf(traits.right)) != std::string::npos;
@@ -214,8 +215,9 @@ TEST_P(AccessTableTest, HealthIsForEveryone) {
 
 TEST_P(AccessTableTest, EveryMethodOfTheApiHasARow) {
   std::vector<std::string> methods;
-  for (const char* name : {"homing.v1.JourneyService", "homing.v1.HomingService",
-                           "homing.v1.DeviationModelService", "homing.v1.StoreService"}) {
+  for (const char* name :
+       {"homing.v1.JourneyService", "homing.v1.HomingService", "homing.v1.DeviationModelService",
+        "homing.v1.StoreService", "homing.v1.FleetService"}) {
     const auto* service =
         google::protobuf::DescriptorPool::generated_pool()->FindServiceByName(name);
     ASSERT_NE(service, nullptr);

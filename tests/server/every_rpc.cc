@@ -25,7 +25,8 @@ EveryRpc::EveryRpc(const std::shared_ptr<grpc::Channel>& channel, std::string to
       journeys_(v1::JourneyService::NewStub(channel)),
       homing_(v1::HomingService::NewStub(channel)),
       models_(v1::DeviationModelService::NewStub(channel)),
-      store_(v1::StoreService::NewStub(channel)) {}
+      store_(v1::StoreService::NewStub(channel)),
+      fleet_(v1::FleetService::NewStub(channel)) {}
 
 std::unique_ptr<grpc::ClientContext> EveryRpc::Context() const {
   auto context = std::make_unique<grpc::ClientContext>();
@@ -230,6 +231,31 @@ grpc::Status EveryRpc::CallModels(Rpc rpc) {
   return models_->ListDeviationModels(context.get(), {}, &response);
 }
 
+// Of a stream the first message; then the client leaves.
+grpc::Status EveryRpc::CallFleet(Rpc rpc, const std::string& robot) {
+  const auto context = Context();
+  if (rpc == Rpc::kListRobots) {
+    v1::ListRobotsResponse response;
+    return fleet_->ListRobots(context.get(), {}, &response);
+  }
+  bool read = false;
+  grpc::Status status;
+  if (rpc == Rpc::kWatchFleet) {
+    v1::WatchFleetResponse response;
+    const auto reader = fleet_->WatchFleet(context.get(), {});
+    read = reader->Read(&response);
+    if (read) context->TryCancel();
+    status = reader->Finish();
+  } else {
+    v1::WatchRobotResponse response;
+    const auto reader = fleet_->WatchRobot(context.get(), Named<v1::WatchRobotRequest>(robot));
+    read = reader->Read(&response);
+    if (read) context->TryCancel();
+    status = reader->Finish();
+  }
+  return read ? grpc::Status::OK : status;
+}
+
 grpc::Status EveryRpc::Call(Rpc rpc, const std::string& journey) {
   switch (rpc) {
     case Rpc::kCreateJourney:
@@ -250,6 +276,10 @@ grpc::Status EveryRpc::Call(Rpc rpc, const std::string& journey) {
       return CallModels(rpc);
     case Rpc::kBackUpStore:
       return BackUp();
+    case Rpc::kListRobots:
+    case Rpc::kWatchFleet:
+    case Rpc::kWatchRobot:
+      return CallFleet(rpc, ParentOf(journey));
     default:
       return CallJourneys(rpc, journey);
   }

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "homing/v1/deviation_model_service.grpc.pb.h"
+#include "homing/v1/fleet_service.grpc.pb.h"
 #include "homing/v1/homing_service.grpc.pb.h"
 #include "homing/v1/journey_service.grpc.pb.h"
 #include "homing/v1/store_service.grpc.pb.h"
@@ -43,6 +44,7 @@ class EveryRpc {
  private:
   grpc::Status CallJourneys(Rpc rpc, const std::string& journey);
   grpc::Status CallModels(Rpc rpc);
+  grpc::Status CallFleet(Rpc rpc, const std::string& robot);
   grpc::Status Export(const std::string& journey);
   grpc::Status Import(const std::string& journey);
   std::unique_ptr<grpc::ClientContext> Context() const;
@@ -52,6 +54,7 @@ class EveryRpc {
   std::unique_ptr<v1::HomingService::Stub> homing_;
   std::unique_ptr<v1::DeviationModelService::Stub> models_;
   std::unique_ptr<v1::StoreService::Stub> store_;
+  std::unique_ptr<v1::FleetService::Stub> fleet_;
 };
 
 }  // namespace homing::server

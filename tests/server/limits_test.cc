@@ -7,7 +7,6 @@
 #include <future>
 
 #include "homing/image/frame.h"
-#include "server/metrics/metrics_endpoint.h"
 #include "tests/server/server_fixture.h"
 #include "tests/support/status_matchers.h"
 
@@ -174,7 +173,7 @@ std::string HttpGet(const std::string& address, const std::string& path) {
   to.sin_port = htons(static_cast<std::uint16_t>(port));
   to.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
   EXPECT_EQ(::connect(file, reinterpret_cast<const sockaddr*>(&to), sizeof(to)), 0);
-  const std::string request = "GET " + path + " HTTP/1.0\r\nHost: x\r\n\r\n";
+  const std::string request = "GET " + path + " HTTP/1.0\r\nHost: localhost\r\n\r\n";
   EXPECT_EQ(::send(file, request.data(), request.size(), 0), static_cast<ssize_t>(request.size()));
   std::string answer;
   char buffer[4096];
@@ -202,12 +201,15 @@ TEST_F(LimitsTest, MetricsAreServedOverHttpAndNothingElseIs) {
         "RecordJourney\"} 5",
         "homing_db_appends_total 5", "homing_db_commit_duration_seconds_count",
         "homing_query_duration_seconds_count 1", "homing_ingest_queue_depth 0",
-        "homing_worker_queue_depth", "homing_limit{limit=\"max-streams\"} 4096",
-        "homing_db_size_bytes", "process_resident_memory_bytes", "process_open_fds"}) {
+        "homing_worker_queue_depth", "homing_build_info{version=", "process_start_time_seconds",
+        "homing_robots_lost 0", "homing_query_results_total{outcome=\"UNKNOWN_PLACE\"}",
+        "homing_errors_total{code=\"UNAVAILABLE\",reason=\"IDLE\"} 0",
+        "homing_limit{limit=\"max-streams\"} 4096", "homing_db_size_bytes",
+        "process_resident_memory_bytes", "process_open_fds"}) {
     EXPECT_THAT(answer, HasSubstr(line));
   }
   EXPECT_THAT(answer, Not(HasSubstr("robots/")));
-  for (const char* path : {"/", "/etc/passwd", "/../etc/passwd", "/metrics/../../etc/passwd"}) {
+  for (const char* path : {"/etc/passwd", "/../etc/passwd", "/metrics/../../etc/passwd"}) {
     EXPECT_THAT(HttpGet(server_->metrics_address(), path),
                 AllOf(Not(HasSubstr("root:")), Not(StartsWith("HTTP/1.1 200"))))
         << path;

@@ -1,0 +1,121 @@
+// The live state of all robots: what each does, its last answer, and since when it is lost. It is
+// kept in memory alone.
+#ifndef SERVER_FLEET_FLEET_BOARD_H_
+#define SERVER_FLEET_FLEET_BOARD_H_
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "homing/base/mutex.h"
+#include "homing/v1/fleet_service.pb.h"
+
+namespace homing::server {
+
+// Is woken when there is something new. Wake must not block, and may be called from any thread.
+class FleetWatcher {
+ public:
+  virtual ~FleetWatcher() = default;
+  virtual void Wake() = 0;
+};
+
+// Thread-safe.
+class FleetBoard {
+ public:
+  // The stored journeys of one robot.
+  struct Stored {
+    std::int64_t journeys = 0;
+    std::int64_t newest_ns = 0;
+  };
+  // What one robot's newest answer was, for those that watch it.
+  struct Update {
+    // Grows with each update; 0: none yet.
+    std::int64_t number = 0;
+    v1::WatchRobotResponse response;
+  };
+
+  // An open stream of a robot; the destructor closes it. Thread-safe.
+  class Presence {
+   public:
+    Presence(FleetBoard* board, std::string robot);
+    ~Presence();
+    Presence(const Presence&) = delete;
+    Presence& operator=(const Presence&) = delete;
+
+    // Somebody watches this robot: the belief is worth computing.
+    bool IsWatched() const;
+    void ReportAnswer(const v1::LocalizeResponse& answer, v1::Belief belief);
+    void ReportSteps(std::int64_t steps);
+
+   private:
+    FleetBoard* const board_;
+    const std::string robot_;
+  };
+
+  // `now_ns` is the server's clock.
+  explicit FleetBoard(std::function<std::int64_t()> now_ns);
+  ~FleetBoard();
+
+  // `robot` is "robots/{robot}"; null if it is empty: the stream belongs to no robot.
+  std::unique_ptr<Presence> Enter(const std::string& robot, v1::Activity activity,
+                                  const std::string& journey);
+  // Replaces the counts of stored journeys; robots without any stay.
+  void SetStored(const std::map<std::string, Stored>& stored);
+
+  // The robots after the name `after`, at most `limit`, in order of name.
+  std::vector<v1::Robot> List(const std::string& after, std::size_t limit) const;
+  // The robots that changed after the change `since`, in order of name. Returns the number of the
+  // last change.
+  std::int64_t ChangesSince(std::int64_t since, std::vector<v1::Robot>* changed) const;
+  // The newest answer; without any the robot's state, under number 0.
+  Update Newest(const std::string& robot) const;
+
+  // Wakes `watcher` after changes: of one robot at each answer, of all robots (empty name) at most
+  // twice a second.
+  void Watch(const std::string& robot, const std::weak_ptr<FleetWatcher>& watcher);
+  struct Counts {
+    int lost = 0;
+    int localizing = 0;
+    int recording = 0;
+  };
+  Counts Count() const;
+  // Somebody watches all robots.
+  bool IsFleetWatched() const;
+
+ private:
+  struct Entry {
+    v1::Robot robot;
+    std::int64_t changed = 0;
+    Update update;
+  };
+  using Watchers = std::vector<std::weak_ptr<FleetWatcher>>;
+
+  Entry& EntryOf(const std::string& robot) HOMING_REQUIRES(mutex_);
+  void MarkChanged(Entry* entry) HOMING_REQUIRES(mutex_);
+  void Leave(const std::string& robot);
+  // Changes the robot's entry, and wakes those that watch it.
+  void Publish(const std::string& robot, const std::function<void(Entry*)>& change);
+  void NoteSeen(Entry* entry);
+  void RunPulse();
+
+  const std::function<std::int64_t()> now_ns_;
+  mutable Mutex mutex_;
+  ConditionVariable pulse_;
+  ConditionVariable stop_;
+  std::map<std::string, Entry> entries_ HOMING_GUARDED_BY(mutex_);
+  std::map<std::string, Watchers> watchers_ HOMING_GUARDED_BY(mutex_);
+  std::int64_t last_change_ HOMING_GUARDED_BY(mutex_) = 0;
+  std::int64_t last_pulse_ HOMING_GUARDED_BY(mutex_) = 0;
+  // The pulse waits for a change.
+  bool idle_ HOMING_GUARDED_BY(mutex_) = false;
+  bool stopping_ HOMING_GUARDED_BY(mutex_) = false;
+  std::thread thread_;
+};
+
+}  // namespace homing::server
+
+#endif  // SERVER_FLEET_FLEET_BOARD_H_

@@ -1,0 +1,224 @@
+// What each request of ConsoleServer does.
+#include <spdlog/spdlog.h>
+
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "absl/strings/str_cat.h"
+#include "server/http/console_assets.h"
+#include "server/http/console_state.h"
+#include "server/http/request_guard.h"
+
+namespace homing::server {
+namespace {
+
+using httplib::Request;
+using httplib::Response;
+
+constexpr int kMaxFeeds = 32;
+constexpr std::size_t kMaxRobots = 8;
+constexpr std::chrono::seconds kAlive{5};
+constexpr char kCookie[] = "homing_session";
+constexpr char kJsonType[] = "application/json; charset=utf-8";
+// No script, style or connection from elsewhere; no frame around the console.
+constexpr char kContentPolicy[] =
+    "default-src 'none'; script-src 'self'; worker-src 'self'; style-src 'self'; img-src 'self'; "
+    "connect-src 'self'; form-action 'self'; base-uri 'none'; frame-ancestors 'none'";
+
+void SetSafeHeaders(Response* response) {
+  response->set_header("Content-Security-Policy", kContentPolicy);
+  response->set_header("X-Content-Type-Options", "nosniff");
+  response->set_header("X-Frame-Options", "DENY");
+  response->set_header("Referrer-Policy", "no-referrer");
+  response->set_header("Cross-Origin-Opener-Policy", "same-origin");
+  response->set_header("Cross-Origin-Resource-Policy", "same-origin");
+}
+
+std::string TraceOf(const Request& request) {
+  std::string trace = request.get_header_value("traceparent");
+  return IsTraceParent(trace) ? trace : "";
+}
+
+}  // namespace
+
+void Send(Response* response, std::string body, const char* type) {
+  const auto kept = std::make_shared<const std::string>(std::move(body));
+  if (kept->empty()) return;
+  response->set_content_provider(
+      kept->size(), type, [kept](std::size_t offset, std::size_t length, httplib::DataSink& sink) {
+        return sink.write(kept->data() + offset, length);
+      });
+}
+
+void Send(Response* response, const ApiAnswer& answer) {
+  response->status = answer.status;
+  response->set_header("Cache-Control", "no-store");
+  Send(response, answer.json, kJsonType);
+}
+
+// Scrapers and probes have neither login nor a browser that could be misled.
+bool ConsoleServer::State::Refuse(const Request& request, Response* response) const {
+  if (request.path == "/metrics" || request.path == "/healthz") return false;
+  SetSafeHeaders(response);
+  const std::string host = request.get_header_value("Host");
+  absl::Status status;
+  if (!IsKnownHost(host, options.hosts)) {
+    status = absl::PermissionDeniedError(
+        "this server does not know that name; use its address, or name it with --http-host");
+  } else if (!IsSameOrigin(request.get_header_value("Origin"), host) ||
+             request.get_header_value("Sec-Fetch-Site") == "cross-site") {
+    const bool page =
+        request.method == "GET" && request.get_header_value("Sec-Fetch-Mode") == "navigate";
+    if (page) return false;
+    status = absl::PermissionDeniedError("the request comes from another site");
+  }
+  if (status.ok()) return false;
+  Send(response, ToAnswer(status));
+  return true;
+}
+
+absl::StatusOr<Login> ConsoleServer::State::LoginOf(const Request& request) {
+  if (context.access->is_open()) return sessions.OfAnybody();
+  if (!options.user_header.empty() && request.has_header(options.user_header.c_str())) {
+    const std::string user = request.get_header_value(options.user_header.c_str());
+    return sessions.OfUser(absl::StrCat("operators/", user));
+  }
+  const auto login = sessions.Find(CookieOf(request.get_header_value("Cookie"), kCookie));
+  if (!login) return absl::UnauthenticatedError("log in first");
+  return *login;
+}
+
+std::string ConsoleServer::State::CookieHeader(const Request& request, const std::string& cookie,
+                                               int seconds) const {
+  const bool tls =
+      !options.tls_cert.empty() || request.get_header_value("X-Forwarded-Proto") == "https";
+  return absl::StrCat(kCookie, "=", cookie,
+                      "; Path=/; HttpOnly; SameSite=Strict; Max-Age=", seconds,
+                      tls ? "; Secure" : "");
+}
+
+void ConsoleServer::State::LogIn(const Request& request, Response* response) {
+  const auto body = nlohmann::json::parse(request.body, nullptr, false);
+  const bool good = body.is_object() && body.contains("token") && body["token"].is_string();
+  const auto cookie = sessions.Open(good ? body["token"].get<std::string>() : "");
+  spdlog::info("audit: login from {}: {}", request.remote_addr, cookie.ok() ? "ok" : "refused");
+  if (!cookie.ok()) {
+    Send(response, ToAnswer(cookie.status()));
+    return;
+  }
+  const int life = static_cast<int>(std::chrono::seconds(SessionBook::kLife).count());
+  response->set_header("Set-Cookie", CookieHeader(request, *cookie, life));
+  Send(response, {200, "{}"});
+}
+
+void ConsoleServer::State::FollowLink(const Request& request, Response* response) {
+  const auto cookie = sessions.TakeLink(request.get_param_value("once"));
+  spdlog::info("audit: login by link from {}: {}", request.remote_addr,
+               cookie.ok() ? "ok" : "refused");
+  if (cookie.ok()) {
+    const int life = static_cast<int>(std::chrono::seconds(SessionBook::kLife).count());
+    response->set_header("Set-Cookie", CookieHeader(request, *cookie, life));
+  }
+  response->status = 303;
+  response->set_header("Cache-Control", "no-store");
+  response->set_header("Location", cookie.ok() ? "/" : "/#/login?link=used");
+}
+
+void ConsoleServer::State::LogOut(const Request& request, Response* response) {
+  sessions.Close(CookieOf(request.get_header_value("Cookie"), kCookie));
+  response->set_header("Set-Cookie", CookieHeader(request, "", 0));
+  Send(response, {200, "{}"});
+}
+
+void ConsoleServer::State::ShowSession(const Request& request, Response* response) {
+  const auto login = LoginOf(request);
+  if (!login.ok()) {
+    Send(response, ToAnswer(login.status()));
+    return;
+  }
+  Credentials credentials;
+  credentials.authorizations = {"Bearer " + login->token};
+  const auto caller = context.access->Identify(credentials);
+  if (!caller.ok()) {
+    Send(response, ToAnswer(caller.status()));
+    return;
+  }
+  const nlohmann::json shown = {{"identity", caller->identity},
+                                {"role", NameOf(caller->role)},
+                                {"csrf", login->csrf},
+                                {"open", context.access->is_open()},
+                                {"version", HOMING_VERSION}};
+  Send(response, {200, shown.dump()});
+}
+
+void ConsoleServer::State::CallApi(const Request& request, Response* response) {
+  const auto login = LoginOf(request);
+  if (!login.ok()) {
+    Send(response, ToAnswer(login.status()));
+    return;
+  }
+  if (request.get_header_value("X-CSRF-Token") != login->csrf) {
+    Send(response, ToAnswer(absl::PermissionDeniedError("X-CSRF-Token must be that of the login")));
+    return;
+  }
+  Send(response, gateway.Call(request.matches[1], request.body, {login->token, TraceOf(request)}));
+}
+
+void ConsoleServer::State::SendEvents(const Request& request, Response* response) {
+  const auto login = LoginOf(request);
+  if (!login.ok()) {
+    Send(response, ToAnswer(login.status()));
+    return;
+  }
+  std::vector<std::string> robots;
+  const auto [begin, end] = request.params.equal_range("robot");
+  for (auto i = begin; i != end && robots.size() < kMaxRobots; ++i) robots.push_back(i->second);
+  std::shared_ptr<EventFeed> feed;
+  {
+    const MutexLock lock(mutex);
+    if (stopping || feeds.size() >= kMaxFeeds) {
+      Send(response, ToAnswer(absl::UnavailableError("too many consoles are open")));
+      return;
+    }
+    feed = std::make_shared<EventFeed>(gateway, ApiCaller{login->token, TraceOf(request)}, robots);
+    feeds.insert(feed);
+  }
+  response->set_header("Cache-Control", "no-store");
+  response->set_header("X-Accel-Buffering", "no");
+  response->set_chunked_content_provider(
+      "text/event-stream",
+      [feed](std::size_t /*offset*/, httplib::DataSink& sink) {
+        const auto text = feed->Next(kAlive);
+        if (!text) {
+          sink.done();
+          return true;
+        }
+        const std::string sent = text->empty() ? ":\n\n" : *text;
+        return sink.write(sent.data(), sent.size());
+      },
+      [this, feed](bool /*success*/) {
+        feed->Stop();
+        const MutexLock lock(mutex);
+        feeds.erase(feed);
+      });
+}
+
+void ConsoleServer::State::SendAsset(const Request& request, Response* response) const {
+  const ConsoleAsset* asset = FindConsoleAsset(request.path);
+  if (asset == nullptr) {
+    Send(response, ToAnswer(absl::NotFoundError("no such page")));
+    return;
+  }
+  response->set_header("Cache-Control", "no-cache");
+  response->set_header("ETag", asset->tag);
+  if (request.get_header_value("If-None-Match") == asset->tag) {
+    response->status = 304;
+    return;
+  }
+  const bool packed = request.get_header_value("Accept-Encoding").find("gzip") != std::string::npos;
+  if (packed) response->set_header("Content-Encoding", "gzip");
+  response->set_header("Vary", "Accept-Encoding");
+  Send(response, packed ? asset->gzip : asset->text, asset->type);
+}
+
+}  // namespace homing::server

@@ -1,0 +1,142 @@
+#include "server/http/console_server.h"
+
+#include <thread>
+#include <utility>
+
+#include "absl/strings/str_cat.h"
+#include "homing/base/host_port.h"
+#include "homing/base/status_macros.h"
+#include "server/http/console_state.h"
+
+namespace homing::server {
+namespace {
+
+using httplib::Request;
+using httplib::Response;
+
+// A thread a connection: browsers keep some open, and each event stream holds one.
+constexpr std::size_t kThreads = 64;
+constexpr int kTimeoutS = 2;
+// Of one connection.
+constexpr std::size_t kMaxRequests = 1000;
+constexpr std::size_t kMaxBody = 1 << 20;
+
+}  // namespace
+
+void ConsoleServer::State::Route() {
+  using Handled = httplib::Server::HandlerResponse;
+  const auto to = [this](void (State::*handle)(const Request&, Response*)) {
+    return [this, handle](const Request& request, Response& response) {
+      (this->*handle)(request, &response);
+    };
+  };
+  server->set_pre_routing_handler([this](const Request& request, Response& response) {
+    return Refuse(request, &response) ? Handled::Handled : Handled::Unhandled;
+  });
+  server->set_exception_handler([](const Request&, Response& response, std::exception_ptr) {
+    Send(&response, ToAnswer(absl::InternalError("the request failed")));
+  });
+  server->Get("/metrics", [this](const Request&, Response& response) {
+    Send(&response, context.metrics(), "text/plain; version=0.0.4; charset=utf-8");
+  });
+  server->Get("/healthz", [this](const Request&, Response& response) {
+    const bool well = context.healthy();
+    response.status = well ? 200 : 503;
+    Send(&response, well ? "ok\n" : "not serving\n", "text/plain; charset=utf-8");
+  });
+  server->Get("/login", to(&State::FollowLink));
+  server->Post("/api/v1/login", to(&State::LogIn));
+  server->Post("/api/v1/logout", to(&State::LogOut));
+  server->Get("/api/v1/session", to(&State::ShowSession));
+  server->Post("/api/v1/([A-Za-z]+/[A-Za-z]+)", to(&State::CallApi));
+  server->Get("/events", to(&State::SendEvents));
+  server->Get(
+      "/.*", [this](const Request& request, Response& response) { SendAsset(request, &response); });
+}
+
+absl::Status ConsoleServer::State::Listen() {
+  if (options.tls_cert.empty()) {
+    server = std::make_unique<httplib::Server>();
+  } else {
+    server =
+        std::make_unique<httplib::SSLServer>(options.tls_cert.c_str(), options.tls_key.c_str());
+  }
+  if (!server->is_valid()) return absl::InvalidArgumentError("http: the TLS files are bad");
+  server->new_task_queue = [] { return new httplib::ThreadPool(kThreads); };
+  server->set_tcp_nodelay(true);
+  // The library's own options let a second server share the port silently.
+  server->set_socket_options([](socket_t socket) {
+    const int yes = 1;
+    ::setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof(yes));
+  });
+  server->set_keep_alive_timeout(kTimeoutS);
+  server->set_keep_alive_max_count(kMaxRequests);
+  server->set_read_timeout(kTimeoutS);
+  server->set_write_timeout(kTimeoutS);
+  server->set_payload_max_length(kMaxBody);
+  Route();
+  HOMING_ASSIGN_OR_RETURN(const HostPort parsed, ParseHostPort("http", options.address, 0));
+  const bool any = parsed.port == 0;
+  const int port = any ? server->bind_to_any_port(parsed.host)
+                       : (server->bind_to_port(parsed.host, parsed.port) ? parsed.port : -1);
+  if (port <= 0) {
+    return absl::UnavailableError(absl::StrCat("http: \"", options.address,
+                                               "\" is in use or is not an address of this "
+                                               "machine"));
+  }
+  address = absl::StrCat(options.address.substr(0, options.address.rfind(':')), ":", port);
+  thread = std::thread([this] { server->listen_after_bind(); });
+  return absl::OkStatus();
+}
+
+ConsoleServer::ConsoleServer(std::unique_ptr<State> state) : state_(std::move(state)) {}
+
+ConsoleServer::~ConsoleServer() {
+  if (!state_->thread.joinable()) return;
+  std::set<std::shared_ptr<EventFeed>> feeds;
+  {
+    const MutexLock lock(state_->mutex);
+    state_->stopping = true;
+    feeds = state_->feeds;
+  }
+  for (const auto& feed : feeds) feed->Stop();
+  // A server that does not listen yet would not notice the stop.
+  while (!state_->server->is_running()) std::this_thread::yield();
+  state_->server->stop();
+  state_->thread.join();
+}
+
+const std::string& ConsoleServer::address() const { return state_->address; }
+
+std::string ConsoleServer::url() const {
+  return absl::StrCat(state_->options.tls_cert.empty() ? "http://" : "https://", state_->address);
+}
+
+absl::StatusOr<std::string> ConsoleServer::MakeLoginLink(const std::string& identity) {
+  HOMING_ASSIGN_OR_RETURN(const std::string secret, state_->sessions.MakeLink(identity));
+  return absl::StrCat(url(), "/login?once=", secret);
+}
+
+absl::Status ConsoleServer::ReloadCertificate() {
+  const ConsoleOptions& options = state_->options;
+  auto* const server = dynamic_cast<httplib::SSLServer*>(state_->server.get());
+  if (server == nullptr) return absl::OkStatus();
+  // Tried in a context of its own first: a half-written pair must not replace a good one.
+  const httplib::SSLServer trial(options.tls_cert.c_str(), options.tls_key.c_str());
+  if (!trial.is_valid()) {
+    return absl::InvalidArgumentError("http: the TLS files cannot be used now");
+  }
+  SSL_CTX* const context = server->ssl_context();
+  SSL_CTX_use_certificate_chain_file(context, options.tls_cert.c_str());
+  SSL_CTX_use_PrivateKey_file(context, options.tls_key.c_str(), SSL_FILETYPE_PEM);
+  return absl::OkStatus();
+}
+
+absl::StatusOr<std::unique_ptr<ConsoleServer>> ConsoleServer::Start(const ConsoleOptions& options,
+                                                                    const ConsoleContext& context) {
+  auto state = std::make_unique<State>(options, context);
+  HOMING_RETURN_IF_ERROR(state->Listen());
+  return std::unique_ptr<ConsoleServer>(new ConsoleServer(std::move(state)));
+}
+
+}  // namespace homing::server

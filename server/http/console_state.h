@@ -1,0 +1,59 @@
+// The state of ConsoleServer, which its sources share.
+#ifndef SERVER_HTTP_CONSOLE_STATE_H_
+#define SERVER_HTTP_CONSOLE_STATE_H_
+
+#include <httplib.h>
+
+#include <memory>
+#include <set>
+#include <string>
+#include <thread>
+
+#include "homing/base/mutex.h"
+#include "server/http/api_gateway.h"
+#include "server/http/console_server.h"
+#include "server/http/event_feed.h"
+#include "server/http/session_book.h"
+
+namespace homing::server {
+
+// Through a provider: of others the library compresses the body, slowly, at each request.
+void Send(httplib::Response* response, std::string body, const char* type);
+void Send(httplib::Response* response, const ApiAnswer& answer);
+
+struct ConsoleServer::State {
+  State(const ConsoleOptions& wanted, const ConsoleContext& shown)
+      : options(wanted),
+        context(shown),
+        sessions(shown.access, [] { return std::chrono::steady_clock::now(); }),
+        gateway(shown.channel) {}
+
+  absl::Status Listen();
+  void Route();
+  bool Refuse(const httplib::Request& request, httplib::Response* response) const;
+  absl::StatusOr<Login> LoginOf(const httplib::Request& request);
+  void LogIn(const httplib::Request& request, httplib::Response* response);
+  void FollowLink(const httplib::Request& request, httplib::Response* response);
+  void LogOut(const httplib::Request& request, httplib::Response* response);
+  void ShowSession(const httplib::Request& request, httplib::Response* response);
+  void CallApi(const httplib::Request& request, httplib::Response* response);
+  void SendEvents(const httplib::Request& request, httplib::Response* response);
+  void SendAsset(const httplib::Request& request, httplib::Response* response) const;
+  std::string CookieHeader(const httplib::Request& request, const std::string& cookie,
+                           int seconds) const;
+
+  const ConsoleOptions options;
+  const ConsoleContext context;
+  SessionBook sessions;
+  const ApiGateway gateway;
+  std::unique_ptr<httplib::Server> server;
+  std::string address;
+  Mutex mutex;
+  std::set<std::shared_ptr<EventFeed>> feeds HOMING_GUARDED_BY(mutex);
+  bool stopping HOMING_GUARDED_BY(mutex) = false;
+  std::thread thread;
+};
+
+}  // namespace homing::server
+
+#endif  // SERVER_HTTP_CONSOLE_STATE_H_

@@ -1,0 +1,144 @@
+// The HTTP side over a real socket: logins, roles, and the checks of where a request comes from.
+#include <httplib.h>
+
+#include <nlohmann/json.hpp>
+
+#include "server/access/token_book.h"
+#include "server/http/request_guard.h"
+#include "tests/server/server_fixture.h"
+#include "tests/support/status_matchers.h"
+
+namespace homing::server {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+class HttpTest : public ServerTest {
+ protected:
+  HttpTest() { options_.http = "127.0.0.1:0"; }
+  httplib::Client Browser() { return httplib::Client("http://" + server_->metrics_address()); }
+  void StartGuarded() {
+    options_.tokens = folder_.File("tokens.toml");
+    EXPECT_THAT(AddToken(options_.tokens, "operators/o", HashToken("secret-o")), IsOk());
+    EXPECT_THAT(AddToken(options_.tokens, "robots/r", HashToken("secret-r")), IsOk());
+    StartServer();
+  }
+  // The session of a cookie.
+  nlohmann::json Session(const httplib::Headers& headers) {
+    const auto answer = Browser().Get("/api/v1/session", headers);
+    return nlohmann::json::parse(answer->body);
+  }
+  static std::string CookieIn(const httplib::Result& answer) {
+    const std::string header = answer->get_header_value("Set-Cookie");
+    return header.substr(0, header.find(';'));
+  }
+};
+
+TEST_F(HttpTest, WithoutCredentialsTheConsoleIsOpenOnlyUnderAKnownName) {
+  StartServer();
+  auto browser = Browser();
+  EXPECT_EQ(browser.Get("/")->status, 200);
+  EXPECT_THAT(browser.Get("/")->get_header_value("Content-Security-Policy"),
+              HasSubstr("script-src 'self'"));
+  const nlohmann::json session = Session({});
+  EXPECT_EQ(session["role"], "admin");
+  EXPECT_EQ(browser.Get("/api/v1/session", {{"Host", "evil.example"}})->status, 403);
+  EXPECT_EQ(browser.Get("/api/v1/session", {{"Origin", "http://evil.example"}})->status, 403);
+  EXPECT_EQ(browser.Get("/events", {{"Sec-Fetch-Site", "cross-site"}})->status, 403);
+  EXPECT_EQ(browser.Get("/healthz", {{"Host", "probe.example"}})->body, "ok\n");
+  const std::string csrf = session["csrf"];
+  const char* list = "/api/v1/FleetService/ListRobots";
+  EXPECT_EQ(browser.Post(list, {}, "{}", "application/json")->status, 403);
+  EXPECT_EQ(browser.Post(list, {{"X-CSRF-Token", csrf}}, "{}", "application/json")->status, 200);
+  EXPECT_EQ(browser.Post(list, {{"X-CSRF-Token", csrf}}, "nonsense", "")->status, 400);
+  const char* stream = "/api/v1/HomingService/Localize";
+  EXPECT_EQ(browser.Post(stream, {{"X-CSRF-Token", csrf}}, "{}", "")->status, 404);
+}
+
+TEST_F(HttpTest, TheApiIsThatOfGrpc) {
+  StartServer();
+  ASSERT_THAT(Create(), IsGrpcOk());
+  RecordFlow(0, 5);
+  const httplib::Headers headers = {{"X-CSRF-Token", Session({})["csrf"].get<std::string>()}};
+  auto browser = Browser();
+  const auto answer = browser.Post("/api/v1/JourneyService/GetJourney", headers,
+                                   R"({"name":"robots/r/journeys/out"})", "application/json");
+  EXPECT_EQ(nlohmann::json::parse(answer->body)["stepCount"], "5");
+  EXPECT_FALSE(answer->has_header("Content-Encoding"));
+  EXPECT_EQ(browser
+                .Post("/api/v1/JourneyService/GetJourney", headers,
+                      R"({"name":"robots/r/journeys/none"})", "application/json")
+                ->status,
+            404);
+}
+
+TEST_F(HttpTest, ATokenOpensASessionWithItsRole) {
+  StartGuarded();
+  auto browser = Browser();
+  EXPECT_EQ(browser.Get("/metrics")->status, 200);
+  EXPECT_EQ(browser.Get("/api/v1/session")->status, 401);
+  EXPECT_EQ(browser.Get("/events")->status, 401);
+  EXPECT_EQ(browser.Post("/api/v1/login", R"({"token":"guess"})", "")->status, 401);
+  EXPECT_EQ(browser.Post("/api/v1/login", "nonsense", "")->status, 401);
+  const auto login = browser.Post("/api/v1/login", R"({"token":"secret-r"})", "");
+  EXPECT_THAT(login->get_header_value("Set-Cookie"), HasSubstr("HttpOnly; SameSite=Strict"));
+  EXPECT_THAT(login->get_header_value("Set-Cookie"), Not(HasSubstr("secret-r")));
+  const std::string cookie = CookieIn(login);
+  const nlohmann::json session = Session({{"Cookie", cookie}});
+  EXPECT_EQ(session["identity"], "robots/r");
+  const httplib::Headers headers = {{"Cookie", cookie},
+                                    {"X-CSRF-Token", session["csrf"].get<std::string>()}};
+  const auto create = [&](const char* parent) {
+    return browser
+        .Post("/api/v1/JourneyService/CreateJourney", headers,
+              nlohmann::json{{"parent", parent}, {"journeyId", "j"}}.dump(), "")
+        ->status;
+  };
+  EXPECT_EQ(create("robots/r"), 200);
+  EXPECT_EQ(create("robots/other"), 403);
+  EXPECT_EQ(browser.Post("/api/v1/logout", headers, "", "")->status, 200);
+  EXPECT_EQ(create("robots/r"), 401);
+}
+
+TEST_F(HttpTest, ALinkLogsInOnce) {
+  StartGuarded();
+  const std::string link = server_->console_link(true);
+  EXPECT_EQ(server_->console_link(false).find("once="), std::string::npos);
+  auto browser = Browser();
+  const std::string path = link.substr(link.find("/login"));
+  const auto first = browser.Get(path);
+  EXPECT_EQ(first->status, 303);
+  EXPECT_EQ(Session({{"Cookie", CookieIn(first)}})["role"], "operator");
+  EXPECT_FALSE(browser.Get(path)->has_header("Set-Cookie"));
+}
+
+TEST_F(HttpTest, AProxyNamesTheUserOnlyIfItsHeaderIsSetUp) {
+  StartGuarded();
+  EXPECT_EQ(Browser().Get("/api/v1/session", {{"X-Forwarded-User", "anna"}})->status, 401);
+  options_.http_user_header = "X-Forwarded-User";
+  StartServer();
+  EXPECT_EQ(Session({{"X-Forwarded-User", "anna"}})["identity"], "operators/anna");
+  EXPECT_EQ(Browser().Get("/api/v1/session", {{"X-Forwarded-User", "an/na"}})->status, 400);
+}
+
+TEST(RequestGuardTest, HostsOriginsAndCookies) {
+  EXPECT_TRUE(IsKnownHost("127.0.0.1:8080", ""));
+  EXPECT_TRUE(IsKnownHost("[::1]:8080", ""));
+  EXPECT_TRUE(IsKnownHost("LOCALHOST", ""));
+  EXPECT_TRUE(IsKnownHost("base.example:8080", "other, base.example"));
+  EXPECT_FALSE(IsKnownHost("base.example", ""));
+  EXPECT_FALSE(IsKnownHost("127.0.0.1.evil.example", ""));
+  EXPECT_FALSE(IsKnownHost("", ""));
+  EXPECT_TRUE(IsSameOrigin("", "a:1"));
+  EXPECT_TRUE(IsSameOrigin("https://a:1", "a:1"));
+  EXPECT_FALSE(IsSameOrigin("null", "a:1"));
+  EXPECT_FALSE(IsSameOrigin("http://a:2", "a:1"));
+  EXPECT_EQ(CookieOf("x=1; homing_session=abc", "homing_session"), "abc");
+  EXPECT_EQ(CookieOf("xhoming_session=abc", "homing_session"), "");
+  EXPECT_TRUE(IsTraceParent("00-4bf92f3577b34da6a3ce929d0e0e4736-00f067aa0ba902b7-01"));
+  EXPECT_FALSE(IsTraceParent("00-4bf92f3577b34da6a3ce929d0e0e4736-00f067aa0ba902b7-0\n"));
+}
+
+}  // namespace
+}  // namespace homing::server
