@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kDrivePageWidth = 760;
 constexpr double kDrivePageHeight = 560;
-constexpr Box kAboveBox{62, 46, 672, 170};
+constexpr Box kAboveBox{62, 52, 672, 164};
 constexpr Box kOffsetBox{62, 270, 672, 90};
 constexpr Box kHeadingBox{62, 404, 672, 90};
 // Larger values are drawn at the edge.
@@ -42,8 +42,12 @@ void DrawFromAbove(Canvas& canvas, const DrivePicture& picture) {
   };
   for (const Point& point : picture.outbound) take(point);
   for (const auto& driven : picture.driven) take(driven.place);
+  // A straight way is no line at the edge.
+  const double middle = 0.5 * (y.low + y.high);
+  y = {std::min(y.low, middle - kMostOffsetM), std::max(y.high, middle + kMostOffsetM)};
   Axes axes(&canvas, kAboveBox, Around(x.low, x.high, 1), Around(y.low, y.high, 1));
-  axes.Draw({picture.title, "from above, metres", "metres"});
+  axes.Draw({"", "from above, metres", "metres"});
+  canvas.Text({kAboveBox.x, 18}, picture.title, {12, Align::kLeft, kBlack, true});
   std::vector<Point> line;
   for (const Point& point : picture.outbound) line.push_back(axes.At(point.x, point.y));
   canvas.Polyline(line, kPale, 7);

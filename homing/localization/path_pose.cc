@@ -33,6 +33,8 @@ constexpr double kLeastOffsetStep = 0.06, kMostOffsetStep = 0.15;
 constexpr double kLeastHeadingStep = 0.04, kMostHeadingStep = 0.12;
 constexpr double kMostOffset = 0.6;
 constexpr double kMostHeading = 0.8;
+// Between two steps, rad; more is no measurement.
+constexpr double kMostTurn = 0.5;
 // Steps tried either way.
 constexpr std::int64_t kSteps = 10;
 // Log likelihood of a unit of profile distance, for an observation of full weight; and the distance
@@ -48,8 +50,10 @@ constexpr double kDrivenAtStart = 0.06;
 // distances of what is seen.
 constexpr double kMapTurn = 0.002;
 constexpr double kMapTurnError = 0.1;
-// Sharpest bend of a path, rad for a distance of what is seen.
+// Sharpest bend of a path, rad for a distance of what is seen: where the sides disagree by more,
+// something has gone, and the bend of before is forgotten.
 constexpr double kMostBend = 0.3;
+constexpr double kForgetBend = 0.9;
 // Stored flow, rad, and steps that are too little to divide by; how fast what was before follows.
 constexpr double kLeastStored = 0.004;
 constexpr double kLeastSteps = 0.2;
@@ -136,6 +140,11 @@ bool PathPoseFilter::Predict(const JourneyMap& map, std::int64_t step, const Obs
   const double map_variance = kMapTurn * kMapTurn + std::pow(kMapTurnError * driven_, 2);
   const double share = map_variance / (map_variance + vertical.variance);
   turned_ = by_map + share * (by_vertical - by_map);
+  if (!std::isfinite(turned_) || std::abs(turned_) > kMostTurn || !std::isfinite(driven_)) {
+    turned_ = 0;
+    driven_ = 0;
+    return false;
+  }
   pose_.heading = std::clamp(pose_.heading + turned_, -kMostHeading, kMostHeading);
   pose_.offset = std::clamp(pose_.offset + driven_ * pose_.heading, -kMostOffset, kMostOffset);
   // The heading takes up the offset's error, and the offset the heading's.
@@ -172,7 +181,7 @@ void PathPoseFilter::Forget() {
 
 // Without the turn, each side's flow is the stored one, less what the path's own bend put into it,
 // times the steps advanced. Where something has gone, one side is wrong, and the other agrees with
-// what was before: the middle one of three.
+// what was before: the middle one of three counts. A bend is one that both sides agree on.
 PathPoseFilter::Advance PathPoseFilter::AdvanceOf(const std::array<double, 2>& now,
                                                   const std::array<double, 2>& then, double turn) {
   std::array<double, 2> moved{};
@@ -190,11 +199,14 @@ PathPoseFilter::Advance PathPoseFilter::AdvanceOf(const std::array<double, 2>& n
   };
   Advance result;
   result.steps = Middle(steps_of(0), steps_of(1), advance_->steps);
+  result.bend = kForgetBend * advance_->bend;
   if (std::abs(result.steps) > kLeastSteps) {
-    result.bend = Middle(then[0] - moved[0] / result.steps, then[1] - moved[1] / result.steps,
-                         advance_->bend);
+    const double left = then[0] - moved[0] / result.steps;
+    const double right = then[1] - moved[1] / result.steps;
     const double most = kMostBend * 0.5 * std::abs(then[1] - then[0]);
-    result.bend = std::clamp(result.bend, -most, most);
+    if (std::abs(left - right) < most) {
+      result.bend = std::clamp(0.5 * (left + right), -most, most);
+    }
   }
   advance_->steps += kFollow * (result.steps - advance_->steps);
   advance_->bend += kFollow * (result.bend - advance_->bend);
@@ -233,6 +245,7 @@ PathPoseFilter::Turning PathPoseFilter::VerticalTurn(const ObservedFlow& flow) c
       if (pass > 0) noise = std::max(kLeastNoisePx / focal, std::sqrt(squares / used));
       if (pass == 2) {
         const double variance = noise * noise * normal.inverse()(0, 0);
+        if (!(variance > 0 && std::isfinite(fit[0]))) return {};
         weight += 1 / variance;
         sum += fit[0] / variance;
       }
@@ -338,7 +351,7 @@ void PathPoseFilter::Fit(const Tried& tried) {
       oh += weight * of * he;
     }
   }
-  if (!(sum > 1e-300)) return;
+  if (!(sum > 1e-300) || !std::isfinite(sum)) return;
   mean_o /= sum;
   mean_h /= sum;
   pose_.offset += mean_o;

@@ -1,0 +1,85 @@
+#include "client/drive/home_drive.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "client/drive/projected_eyes.h"
+#include "client/simulator/simulation_spec.h"
+#include "tests/drive/local_localizer.h"
+
+namespace homing::client {
+namespace {
+
+class HomeDriveTest : public ::testing::TestWithParam<const char*> {
+ protected:
+  void SetUp() override {
+    cameras_ = *PosedCameras::Create(*ParseSimulationSpec(GetParam()));
+    ProjectedEyes eyes(cameras_.get(), {});
+    map_ = *drive::RecordOut(cameras_->route(), {.length_m = 20}, &eyes);
+  }
+
+  HomeDrive Drive(const HomeDriveOptions& changed = {}) {
+    HomeDriveOptions options = changed;
+    options.pilot.route_m = 20;
+    options.start_left_m = 0.3;
+    options.most_s = 90;
+    ProjectedEyes eyes(cameras_.get(), {.seed = 2});
+    drive::LocalLocalizer localizer(&map_, Travel::kReturn);
+    return *DriveHome(options, cameras_->route(), &eyes,
+                      [&](const Observation& seen) { return localizer.Answer(seen); });
+  }
+
+  // Mean answer, in distances of what is seen, of a robot that drives along beside the path.
+  double PathOffset(double left_m) {
+    ProjectedEyes eyes(cameras_.get(), {.seed = 3});
+    drive::LocalLocalizer localizer(&map_, Travel::kReturn);
+    double sum = 0;
+    int count = 0;
+    std::int64_t frame = 0;
+    for (double at = 20; at > 2; at -= 0.1) {
+      Pose pose = cameras_->route().At(at);
+      // The robot's left is the route's right.
+      pose.position = pose.At(0, -left_m);
+      pose.heading += kTurn / 2;
+      Observation seen = eyes.See(pose, 5000 + frame);
+      seen.sequence = frame++;
+      const auto answer = localizer.Answer(seen);
+      if (answer.ok() && answer->path_offset && at < 12) {
+        sum += *answer->path_offset;
+        ++count;
+      }
+    }
+    return count == 0 ? std::nan("") : sum / count;
+  }
+
+  std::unique_ptr<PosedCameras> cameras_;
+  JourneyMap map_;
+};
+INSTANTIATE_TEST_SUITE_P(Scenes, HomeDriveTest,
+                         ::testing::Values("sim:street,length=20,seed=1",
+                                           "sim:landmarks,length=20,seed=2"));
+
+TEST_P(HomeDriveTest, ComesHome) {
+  const HomeDrive drive = Drive();
+  EXPECT_TRUE(drive.stopped);
+  EXPECT_LT(drive.EndFromHome(cameras_->route()), 1);
+}
+
+TEST_P(HomeDriveTest, TheSameSeedDrivesTheSamePath) {
+  const HomeDrive one = Drive(), two = Drive();
+  ASSERT_EQ(one.points.size(), two.points.size());
+  EXPECT_EQ(one.points.back().pose.position, two.points.back().pose.position);
+}
+
+TEST_P(HomeDriveTest, PathOffsetGrowsWithTheOffset) {
+  double before = -10;
+  for (const double left_m : {-1.0, -0.5, 0.0, 0.5, 1.0}) {
+    const double offset = PathOffset(left_m);
+    EXPECT_GT(offset, before) << left_m;
+    before = offset;
+  }
+}
+
+}  // namespace
+}  // namespace homing::client

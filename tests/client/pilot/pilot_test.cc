@@ -1,0 +1,143 @@
+#include "client/pilot/pilot.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace homing::client {
+namespace {
+
+// Answers every tenth of a second, and the command that follows each.
+class PilotTest : public ::testing::Test {
+ protected:
+  static PilotOptions InReverse() {
+    PilotOptions options;
+    options.turn_round = false;
+    return options;
+  }
+
+  // On the path, half of the way home, unless `answer` says otherwise.
+  PilotCommand Step(Pilot& pilot, PilotAnswer answer = Sure()) {
+    answer.sequence = sequence_++;
+    answer.time_s = now_s_;
+    pilot.Take(answer);
+    return Wait(pilot);
+  }
+  PilotCommand Wait(Pilot& pilot) {
+    const PilotCommand command = pilot.Drive(now_s_);
+    now_s_ += 0.1;
+    return command;
+  }
+  // Of a pilot that has turned round.
+  Pilot OnItsWay(const PilotOptions& options = {}) {
+    Pilot pilot(options);
+    while (pilot.state() == Pilot::State::kTurningRound) {
+      PilotAnswer turning = Sure();
+      turning.is_turning = true;
+      turning.turn = 0.1 * Wait(pilot).turn_rate;
+      Step(pilot, turning);
+    }
+    return pilot;
+  }
+
+  static PilotAnswer Sure() {
+    PilotAnswer answer;
+    answer.outcome = PilotAnswer::Outcome::kMatch;
+    answer.probability = 1;
+    answer.progress_home = 0.5;
+    answer.turn = 0;
+    answer.path_offset = 0;
+    return answer;
+  }
+
+  std::int64_t sequence_ = 0;
+  double now_s_ = 0;
+};
+
+TEST_F(PilotTest, TurnsRoundOnTheSpotAndThenDrivesAhead) {
+  Pilot pilot{PilotOptions()};
+  EXPECT_EQ(pilot.state(), Pilot::State::kTurningRound);
+  const PilotCommand first = Step(pilot);
+  EXPECT_EQ(first.speed_mps, 0);
+  EXPECT_NE(first.turn_rate, 0);
+  Pilot turned = OnItsWay();
+  EXPECT_EQ(turned.state(), Pilot::State::kDriving);
+  EXPECT_GT(Step(turned).speed_mps, 0.3);
+}
+
+TEST_F(PilotTest, DrivesHomeInReverseWithoutATurn) {
+  Pilot pilot(InReverse());
+  const PilotCommand command = Step(pilot);
+  EXPECT_LT(command.speed_mps, -0.3);
+  EXPECT_NEAR(command.turn_rate, 0, 1e-9);
+}
+
+TEST_F(PilotTest, HeadsBackToThePath) {
+  PilotAnswer left = Sure();
+  left.path_offset = 0.1;
+  Pilot ahead = OnItsWay();
+  EXPECT_LT(Step(ahead, left).turn_rate, 0);
+  Pilot reverse(InReverse());
+  EXPECT_GT(Step(reverse, left).turn_rate, 0);
+}
+
+TEST_F(PilotTest, TurnsAgainstTheSumOfTheTurns) {
+  Pilot pilot = OnItsWay();
+  PilotAnswer turned = Sure();
+  turned.turn = 0.1;
+  Step(pilot, turned);
+  const double once = Step(pilot, turned).turn_rate;
+  EXPECT_LT(once, 0);
+  EXPECT_GT(pilot.heading(), 0.1);
+}
+
+TEST_F(PilotTest, StandsWhenAnswersStopAndGoesOnWhenTheyComeAgain) {
+  Pilot pilot = OnItsWay();
+  Step(pilot);
+  PilotCommand command;
+  for (int i = 0; i < 15; ++i) command = Wait(pilot);
+  EXPECT_EQ(pilot.state(), Pilot::State::kWaiting);
+  EXPECT_EQ(command.speed_mps, 0);
+  EXPECT_EQ(command.turn_rate, 0);
+  Step(pilot);
+  Step(pilot);
+  EXPECT_EQ(pilot.state(), Pilot::State::kDriving);
+}
+
+TEST_F(PilotTest, IsSlowerWhenUnsureAndSearchesAfterAWhile) {
+  Pilot pilot = OnItsWay();
+  const double sure = Step(pilot).speed_mps;
+  PilotAnswer lost;
+  lost.outcome = PilotAnswer::Outcome::kUnknownPlace;
+  EXPECT_LT(Step(pilot, lost).speed_mps, sure);
+  bool back = false;
+  for (int i = 0; i < 300; ++i) back = Step(pilot, lost).speed_mps < 0 || back;
+  EXPECT_EQ(pilot.state(), Pilot::State::kSearching);
+  EXPECT_TRUE(back);
+}
+
+TEST_F(PilotTest, StopsAtHomeForGood) {
+  Pilot pilot = OnItsWay();
+  PilotAnswer home = Sure();
+  home.progress_home = 0.9999;
+  Step(pilot, home);
+  EXPECT_EQ(pilot.state(), Pilot::State::kHome);
+  EXPECT_EQ(Step(pilot).speed_mps, 0);
+}
+
+TEST_F(PilotTest, IsNeverFasterThanItsLimits) {
+  PilotOptions options;
+  options.most_speed_mps = 0.4;
+  options.most_turn_rate = 0.3;
+  Pilot pilot = OnItsWay(options);
+  PilotAnswer far_off = Sure();
+  far_off.path_offset = 2;
+  for (int i = 0; i < 20; ++i) {
+    const PilotCommand command = Step(pilot, far_off);
+    EXPECT_LE(std::abs(command.speed_mps), 0.4);
+    EXPECT_LE(std::abs(command.turn_rate), 0.3);
+  }
+}
+
+}  // namespace
+}  // namespace homing::client
