@@ -1,8 +1,5 @@
 #include "homing/localization/path_pose.h"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Core>
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -11,6 +8,7 @@
 
 #include "homing/landmark/flow_profile.h"
 #include "homing/landmark/odometer_reading.h"
+#include "homing/localization/vertical_turn.h"
 #include "homing/profile/profile_distance.h"
 
 namespace homing {
@@ -50,25 +48,10 @@ constexpr double kDrivenAtStart = 0.06;
 // distances of what is seen.
 constexpr double kMapTurn = 0.002;
 constexpr double kMapTurnError = 0.1;
-// Sharpest bend of a path, rad for a distance of what is seen: where the sides disagree by more,
-// something has gone, and the bend of before is forgotten.
-constexpr double kMostBend = 0.3;
-constexpr double kForgetBend = 0.9;
-// Stored flow, rad, and steps that are too little to divide by; how fast what was before follows.
-constexpr double kLeastStored = 0.004;
-constexpr double kLeastSteps = 0.2;
-constexpr double kFollow = 0.3;
-// Of the vertical flow, pixels: at first, and at least.
-constexpr double kFirstNoisePx = 1.0;
-constexpr double kLeastNoisePx = 0.1;
 // Opposite sideways flows that differ by less say nothing of the motion, pixels.
 constexpr double kLeastAdvancePx = 1;
 
 std::size_t At(Side side) { return static_cast<std::size_t>(side); }
-
-double Middle(double a, double b, double c) {
-  return std::max(std::min(a, b), std::min(std::max(a, b), c));
-}
 
 // Of the cells.
 double ShareOf(const CellMask& covered) {
@@ -129,7 +112,7 @@ bool PathPoseFilter::Predict(const JourneyMap& map, std::int64_t step, const Obs
   const double advance = then[1] - then[0];
   const double focal = FocalOf(0, flow.fields[0]->width);
   if (std::abs(advance) * focal < kLeastAdvancePx) return false;
-  const Turning vertical = VerticalTurn(flow);
+  const VerticalTurn vertical = ReadVerticalTurn(flow, cameras_);
   const Advance moved = AdvanceOf(now, then, vertical.turn);
   driven_ = 0.5 * moved.steps * advance * (travel_ == Travel::kReturn ? -1 : 1);
   const double by_vertical = vertical.turn - moved.steps * moved.bend;
@@ -177,81 +160,6 @@ void PathPoseFilter::Forget() {
   offset_variance_ = kFirstOffset * kFirstOffset;
   heading_variance_ = kFirstHeading * kFirstHeading;
   covariance_ = 0;
-}
-
-// Without the turn, each side's flow is the stored one, less what the path's own bend put into it,
-// times the steps advanced. Where something has gone, one side is wrong, and the other agrees with
-// what was before: the middle one of three counts. A bend is one that both sides agree on.
-PathPoseFilter::Advance PathPoseFilter::AdvanceOf(const std::array<double, 2>& now,
-                                                  const std::array<double, 2>& then, double turn) {
-  std::array<double, 2> moved{};
-  for (const Side side : {Side::kLeft, Side::kRight}) {
-    // What is nearer moves faster.
-    const double left = travel_ == Travel::kReturn ? -pose_.offset : pose_.offset;
-    const double nearer = side == Side::kLeft ? left : -left;
-    moved[At(side)] = (now[At(side)] - turn) * (1 - nearer);
-  }
-  const double mean = (moved[1] - moved[0]) / (then[1] - then[0]);
-  if (!advance_) advance_ = Advance{.steps = mean, .bend = 0};
-  const auto steps_of = [&](std::size_t side) {
-    const double stored = then[side] - advance_->bend;
-    return std::abs(stored) > kLeastStored ? moved[side] / stored : mean;
-  };
-  Advance result;
-  result.steps = Middle(steps_of(0), steps_of(1), advance_->steps);
-  result.bend = kForgetBend * advance_->bend;
-  if (std::abs(result.steps) > kLeastSteps) {
-    const double left = then[0] - moved[0] / result.steps;
-    const double right = then[1] - moved[1] / result.steps;
-    const double most = kMostBend * 0.5 * std::abs(then[1] - then[0]);
-    if (std::abs(left - right) < most) {
-      result.bend = std::clamp(0.5 * (left + right), -most, most);
-    }
-  }
-  advance_->steps += kFollow * (result.steps - advance_->steps);
-  advance_->bend += kFollow * (result.bend - advance_->bend);
-  return result;
-}
-
-PathPoseFilter::Turning PathPoseFilter::VerticalTurn(const ObservedFlow& flow) const {
-  double weight = 0, sum = 0;
-  for (std::size_t camera = 0; camera < 2; ++camera) {
-    const FlowField& field = *flow.fields[camera];
-    const auto& in = cameras_[camera].intrinsics;
-    const double focal = FocalOf(camera, field.width);
-    const double center_x = in ? in->center_x : 0.5 * (field.width - 1);
-    const double center_y = in ? in->center_y : 0.5 * (field.height - 1);
-    // v = turn x y + tilt (1 + y^2) - roll x, in focal lengths; then again without what lies far
-    // off.
-    Eigen::Vector3d fit = Eigen::Vector3d::Zero();
-    double noise = kFirstNoisePx / focal;
-    for (int pass = 0; pass < 3; ++pass) {
-      Eigen::Matrix3d normal = 1e-9 * Eigen::Matrix3d::Identity();
-      Eigen::Vector3d right = Eigen::Vector3d::Zero();
-      double squares = 0;
-      int used = 0;
-      for (const FlowVector& v : field.vectors) {
-        const double x = (v.MidX() - center_x) / focal, y = (v.MidY() - center_y) / focal;
-        const Eigen::Vector3d row(x * y, 1 + y * y, -x);
-        const double error = v.FlowY() / focal - row.dot(fit);
-        if (!(std::abs(error) < 3 * noise)) continue;
-        normal += row * row.transpose();
-        right += row * (v.FlowY() / focal);
-        squares += error * error;
-        ++used;
-      }
-      if (used < OdometerReading::kLeastVectors) return {};
-      fit = normal.ldlt().solve(right);
-      if (pass > 0) noise = std::max(kLeastNoisePx / focal, std::sqrt(squares / used));
-      if (pass == 2) {
-        const double variance = noise * noise * normal.inverse()(0, 0);
-        if (!(variance > 0 && std::isfinite(fit[0]))) return {};
-        weight += 1 / variance;
-        sum += fit[0] / variance;
-      }
-    }
-  }
-  return {sum / weight, 1 / weight};
 }
 
 // A turn to the left moves what is seen to higher x, in both cameras.

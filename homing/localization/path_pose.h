@@ -60,12 +60,6 @@ class PathPoseFilter {
   PathPose deviation() const;
 
  private:
-  // What the vertical flow says of the turn, rad to the left: driving along the heading moves
-  // nothing up or down in cameras that look across, a turn does.
-  struct Turning {
-    double turn = 0;
-    double variance = 1;
-  };
   // Steps advanced, negative towards home, and the path's own turn at each, rad to the left of the
   // outbound robot.
   struct Advance {
@@ -75,7 +69,6 @@ class PathPoseFilter {
   // By side of the route: sideways flow now and at the step, rad.
   Advance AdvanceOf(const std::array<double, 2>& now, const std::array<double, 2>& then,
                     double turn);
-  Turning VerticalTurn(const ObservedFlow& flow) const;
   // Pixels.
   double FocalOf(std::size_t camera, int width) const;
   FlowField Turned(const FlowField& field, std::size_t camera, double heading) const;

@@ -7,8 +7,6 @@
 namespace homing {
 namespace {
 
-constexpr std::size_t kNoOffset = kPathOffsets.size() / 2;
-static_assert(kPathOffsets[kNoOffset] == 0);
 // Stored profiles that tell how far away those of other places are; at most twice as many.
 constexpr std::int64_t kSamples = 256;
 // A less probable offset is tried only now and then, once the place is known.
@@ -99,25 +97,19 @@ void ProfileLikelihood::Compute(std::span<const JourneyRef> journeys, const Seen
   weight_ = weight;
   first_steps_.clear();
   for (const StepMass& of_journey : predicted) first_steps_.push_back(of_journey.first);
-  Choose(journeys, predicted);
   for (std::size_t side = 0; side < seen.size(); ++side) {
     compared_[side] =
         IsEnough(seen[side]) && std::ranges::any_of(journeys, [side](const JourneyRef& journey) {
           return HasProfiles(journey, side);
         });
+  }
+  Choose(journeys, predicted);
+  for (std::size_t side = 0; side < seen.size(); ++side) {
     if (compared_[side]) {
       Measure(journeys, Side{static_cast<int>(side)}, *seen[side], predicted);
     }
   }
   Weigh(predicted);
-}
-
-// Of the offsets that were tried.
-std::size_t ProfileLikelihood::LikeliestOffset() const {
-  if (!compared_[0] || !compared_[1]) {
-    return kNoOffset;
-  }
-  return static_cast<std::size_t>(std::ranges::max_element(anywhere_) - anywhere_.begin());
 }
 
 // The offset of the robot makes one side larger and the other smaller: one camera alone cannot tell
@@ -129,7 +121,7 @@ void ProfileLikelihood::Choose(std::span<const JourneyRef> journeys,
   for (std::size_t i = 0; i < journeys.size(); ++i) {
     all = all && std::ssize(predicted[i].mass) == journeys[i].map->step_count();
   }
-  const std::size_t likeliest = LikeliestOffset();
+  const std::ptrdiff_t likeliest = std::ranges::max_element(anywhere_) - anywhere_.begin();
   const auto in_turn = static_cast<std::size_t>(instants_) % kViews;
   if (!compared_[0] || !compared_[1]) {
     chosen_ = {};
@@ -137,8 +129,8 @@ void ProfileLikelihood::Choose(std::span<const JourneyRef> journeys,
     return;
   }
   for (std::size_t offset = 0; offset < kViews; ++offset) {
-    chosen_[offset] =
-        all || anywhere_[offset] >= kLeastOffset || offset == in_turn || offset == likeliest;
+    chosen_[offset] = all || anywhere_[offset] >= kLeastOffset || offset == in_turn ||
+                      std::ptrdiff_t(offset) == likeliest;
   }
 }
 
@@ -265,31 +257,6 @@ void ProfileLikelihood::Learn() {
   }
   anywhere_ = PathOffsets::Mix(mass);
   ++instants_;
-}
-
-BelievedInstant ProfileLikelihood::Believed(std::size_t journey, std::int64_t first,
-                                            std::int64_t last) const {
-  const std::size_t offset = LikeliestOffset();
-  const std::int64_t held = first_steps_[journey];
-  std::vector<std::int32_t> sums;
-  BelievedInstant instant{.journey = journey, .step = std::max(first, held)};
-  for (std::size_t side = 0; side < compared_.size(); ++side) {
-    if (!compared_[side]) continue;
-    const std::size_t view = ViewOf(side, offset);
-    const auto seen = std::ranges::find(views_[side], view, &SeenView::view);
-    instant.seen[side] = {.profile = seen->profile, .covered = &CoveredBy(view)};
-    const std::vector<std::uint16_t>& distances = distances_[side][view][journey];
-    if (distances.empty()) continue;
-    const std::int64_t end = std::min(last + 1, held + std::ssize(distances));
-    sums.resize(static_cast<std::size_t>(std::max<std::int64_t>(0, end - instant.step)));
-    for (std::size_t i = 0; i < sums.size(); ++i) {
-      const auto step = static_cast<std::size_t>(instant.step) + i;
-      sums[i] += int{distances[step - static_cast<std::size_t>(held)]} -
-                 int{routes_[journey].sides[side]->bias[step]};
-    }
-  }
-  instant.step += std::ranges::min_element(sums) - sums.begin();
-  return instant;
 }
 
 void ProfileLikelihood::StartAtOffset(double offset) {

@@ -13,6 +13,8 @@ namespace homing {
 
 // Offsets from the outbound path, to the left of the route; in distances of what is seen there.
 inline constexpr std::array<double, 7> kPathOffsets = {-0.35, -0.23, -0.11, 0, 0.11, 0.23, 0.35};
+inline constexpr std::size_t kNoOffset = kPathOffsets.size() / 2;
+static_assert(kPathOffsets[kNoOffset] == 0);
 
 // How much larger each view is than what the camera sees.
 constexpr double MagnificationOf(std::size_t view) { return 1 + kPathOffsets[view]; }

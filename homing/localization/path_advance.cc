@@ -1,0 +1,59 @@
+#include <algorithm>
+#include <cmath>
+
+#include "homing/localization/path_pose.h"
+
+namespace homing {
+namespace {
+
+// Sharpest bend of a path, rad for a distance of what is seen: where the sides disagree by more,
+// something has gone, and the bend of before is forgotten.
+constexpr double kMostBend = 0.3;
+constexpr double kForgetBend = 0.9;
+// Stored flow, rad, and steps that are too little to divide by; how fast what was before follows.
+constexpr double kLeastStored = 0.004;
+constexpr double kLeastSteps = 0.2;
+constexpr double kFollow = 0.3;
+
+double Middle(double a, double b, double c) {
+  return std::max(std::min(a, b), std::min(std::max(a, b), c));
+}
+
+}  // namespace
+
+// Without the turn, each side's flow is the stored one, less what the path's own bend put into it,
+// times the steps advanced. Where something has gone, one side is wrong, and the other agrees with
+// what was before: the middle one of three counts. A bend is one that both sides agree on.
+PathPoseFilter::Advance PathPoseFilter::AdvanceOf(const std::array<double, 2>& now,
+                                                  const std::array<double, 2>& then, double turn) {
+  std::array<double, 2> moved{};
+  for (const Side side : {Side::kLeft, Side::kRight}) {
+    // What is nearer moves faster.
+    const double left = travel_ == Travel::kReturn ? -pose_.offset : pose_.offset;
+    const double nearer = side == Side::kLeft ? left : -left;
+    moved[static_cast<std::size_t>(side)] =
+        (now[static_cast<std::size_t>(side)] - turn) * (1 - nearer);
+  }
+  const double mean = (moved[1] - moved[0]) / (then[1] - then[0]);
+  if (!advance_) advance_ = Advance{.steps = mean, .bend = 0};
+  const auto steps_of = [&](std::size_t side) {
+    const double stored = then[side] - advance_->bend;
+    return std::abs(stored) > kLeastStored ? moved[side] / stored : mean;
+  };
+  Advance result;
+  result.steps = Middle(steps_of(0), steps_of(1), advance_->steps);
+  result.bend = kForgetBend * advance_->bend;
+  if (std::abs(result.steps) > kLeastSteps) {
+    const double left = then[0] - moved[0] / result.steps;
+    const double right = then[1] - moved[1] / result.steps;
+    const double most = kMostBend * 0.5 * std::abs(then[1] - then[0]);
+    if (std::abs(left - right) < most) {
+      result.bend = std::clamp(0.5 * (left + right), -most, most);
+    }
+  }
+  advance_->steps += kFollow * (result.steps - advance_->steps);
+  advance_->bend += kFollow * (result.bend - advance_->bend);
+  return result;
+}
+
+}  // namespace homing

@@ -1,0 +1,24 @@
+// The turn that the vertical flow shows: driving along the heading moves nothing up or down in
+// cameras that look across, a turn does. Source: own design (METHOD 7).
+#ifndef HOMING_LOCALIZATION_VERTICAL_TURN_H_
+#define HOMING_LOCALIZATION_VERTICAL_TURN_H_
+
+#include <array>
+
+#include "homing/flow/camera.h"
+#include "homing/flow/observation.h"
+
+namespace homing {
+
+// Rad to the left, and its variance: large where the flow tells nothing.
+struct VerticalTurn {
+  double turn = 0;
+  double variance = 1;
+};
+
+// REQUIRES: both cameras have flow.
+VerticalTurn ReadVerticalTurn(const ObservedFlow& flow, const std::array<Camera, 2>& cameras);
+
+}  // namespace homing
+
+#endif  // HOMING_LOCALIZATION_VERTICAL_TURN_H_
