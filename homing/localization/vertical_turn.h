@@ -1,5 +1,5 @@
 // The turn that the vertical flow shows: driving along the heading moves nothing up or down in
-// cameras that look across, a turn does. Source: own design (METHOD 7).
+// cameras that look across, a turn does.
 #ifndef HOMING_LOCALIZATION_VERTICAL_TURN_H_
 #define HOMING_LOCALIZATION_VERTICAL_TURN_H_
 
