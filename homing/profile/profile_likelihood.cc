@@ -20,16 +20,6 @@ bool HasProfiles(const JourneyRef& journey, std::size_t side) {
   return !journey.map->profiles(Side{static_cast<int>(side)}).empty();
 }
 
-// The cells that a view fills.
-const CellMask& CoveredBy(std::size_t view) {
-  static const auto masks = [] {
-    std::array<CellMask, kPathOffsets.size()> all;
-    for (std::size_t i = 0; i < all.size(); ++i) all[i] = CoveredCells(MagnificationOf(i));
-    return all;
-  }();
-  return masks[view];
-}
-
 // Stored profiles, and their biases.
 struct Sample {
   std::vector<const FlowProfile*> profiles;

@@ -25,6 +25,9 @@ constexpr std::size_t ViewOf(std::size_t side, std::size_t offset) {
   return side == 0 ? kPathOffsets.size() - 1 - offset : offset;
 }
 
+// The cells of a view that the camera's image covers.
+const CellMask& CoveredBy(std::size_t view);
+
 // Indexed by side of the ROUTE; none where no camera looks.
 using SeenProfiles = std::array<std::optional<ProfileMaker>, 2>;
 
