@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "homing/landmark/flow_profile.h"
+#include "homing/profile/profile_distance.h"
 
 namespace homing {
 
