@@ -7,6 +7,8 @@ stage_packages() {
   sh deploy/install.sh build client test check fuzz
   # Packages of the last stages may be missing: these stages then report it.
   sh deploy/install.sh container || echo "containers cannot be tried here"
+  sh deploy/install.sh operations || echo "alert rules and dashboard cannot be tried here"
+  sh deploy/install.sh console || echo "the console cannot be tried in a browser here"
 }
 
 stage_format() { project_sources | xargs clang-format --dry-run --Werror; }
@@ -25,6 +27,15 @@ stage_proto() {
   "$buf/node_modules/.bin/buf" lint proto
 }
 
+# The server that the stage of the tests built.
+built_server() {
+  local root
+  for root in "$scratch/root/homing" "$PWD"; do
+    [ ! -x "$root/build/dev/server/homing-server" ] || { echo "$root/build/dev/server/homing-server"; return; }
+  done
+  return 1
+}
+
 # The committed bundle is what its sources make; then the console in a browser.
 stage_console() {
   command -v npm >/dev/null || skip "npm is not installed, so the console cannot be built"
@@ -34,13 +45,16 @@ stage_console() {
   (cd console && node build.mjs ../build/ci/console)
   diff -r console/dist build/ci/console
   command -v chromium >/dev/null || skip "chromium is not installed; the bundle's bytes are right"
-  [ -x build/dev/server/homing-server ] || skip "no build of the server; the bundle's bytes are right"
+  HOMING_SERVER=$(built_server) || skip "no build of the server; the bundle's bytes are right"
+  export HOMING_SERVER
   sh tests/console/run.sh
 }
 
 # Alert rules, and the dashboard's queries against a live server.
 stage_operations() {
   command -v promtool >/dev/null || skip "prometheus is not installed"
+  HOMING_SERVER=$(built_server) || skip "no build of the server"
+  export HOMING_SERVER
   sh tests/operations/run.sh
 }
 

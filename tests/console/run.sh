@@ -4,7 +4,7 @@
 set -eu
 cd "$(dirname "$0")/../.."
 preset=${HOMING_PRESET:-dev}
-server=$PWD/build/$preset/server/homing-server
+server=${HOMING_SERVER:-$PWD/build/$preset/server/homing-server}
 [ -x "$server" ] || { echo "tests/console/run.sh: build homing-server first (sh tests/run.sh)" >&2; exit 2; }
 command -v chromium >/dev/null || { echo "tests/console/run.sh: apt-get install chromium" >&2; exit 2; }
 [ -d tests/console/node_modules ] ||

@@ -3,7 +3,7 @@
 # usage: sh tests/operations/run.sh
 set -eu
 cd "$(dirname "$0")/../.."
-server=build/${HOMING_PRESET:-dev}/server/homing-server
+server=${HOMING_SERVER:-build/${HOMING_PRESET:-dev}/server/homing-server}
 command -v promtool >/dev/null || { echo "tests/operations/run.sh: apt-get install prometheus" >&2; exit 2; }
 promtool test rules tests/operations/alerts_test.yaml
 [ -x "$server" ] || { echo "tests/operations/run.sh: build homing-server first (sh tests/run.sh)" >&2; exit 2; }
