@@ -42,6 +42,7 @@ constexpr std::array kExamples = {
     Example{
         "drive",
         "homing drive --scene street,length=60 --journey robots/sim/journeys/street --out drive"},
+    Example{"top", "homing top --once"},
     Example{"evaluate",
             "homing evaluate --answers home.json --truth-out out/truth.csv --truth-home "
             "home/truth.csv --out figures"},

@@ -170,45 +170,6 @@ TEST_F(LocalizerTest, ErrorLeavesNoTrace) {
   }
 }
 
-// Sideways flow of both cameras, pixels; what is nearer moves more.
-Observation Sideways(std::int64_t sequence, float left, float right) {
-  Observation observation;
-  observation.sequence = sequence;
-  for (std::size_t side = 0; side < 2; ++side) {
-    FlowField field{.width = 320, .height = 240, .vectors = {}};
-    for (int i = 0; i < 100; ++i) {
-      const auto x = static_cast<float>(20 + 28 * (i % 10));
-      const auto y = static_cast<float>(20 + 20 * (i / 10));
-      const float moved = (side == 0 ? left : right) * (0.9F + 0.02F * static_cast<float>(i % 11));
-      field.vectors.push_back({x, y, x + moved, y});
-    }
-    observation.views[side] = std::move(field);
-  }
-  return observation;
-}
-
-// Seen from above, a turn to the left moves both images to the right.
-TEST(LocalizerTurnTest, IsPositiveToTheLeft) {
-  JourneyRecorder recorder({});
-  JourneyMap map;
-  for (int step = 0; step < 20; ++step) {
-    const auto recorded = recorder.Record(Sideways(step, -5, 5));
-    ASSERT_TRUE(recorded.ok() && recorded->has_value());
-    ASSERT_TRUE(map.Append(**recorded).ok());
-  }
-  map.mutable_settings() = recorder.settings();
-  const std::string name = "robots/a/journeys/b";
-  const JourneyRef journey{&name, &map};
-  LocalizerOptions options;
-  options.travel = Travel::kSame;
-  for (const float turn : {-2.0F, 0.0F, 2.0F}) {
-    Localizer localizer(options);
-    const auto result = localizer.Localize(Sideways(0, -5 + turn, 5 + turn), {&journey, 1});
-    ASSERT_TRUE(result.ok() && result->turn);
-    EXPECT_NEAR(*result->turn, turn, 0.3);
-  }
-}
-
 TEST(CheckCompatibleTest, ComparesOptionsAndSizesBySideOfTheRoute) {
   LocalizerOptions query;
   JourneySettings settings;

