@@ -7,7 +7,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "absl/strings/str_cat.h"
-#include "client/frame_source.h"
+#include "client/image_folder.h"
 #include "client/simulator/frame_schedule.h"
 #include "client/simulator/simulation_spec.h"
 #include "homing/image/frame.h"
@@ -76,11 +76,9 @@ Drive Maker::Take() {
 }
 
 cv::Mat ReadImage(const std::string& file, const cv::Size& size) {
-  auto source = client::OpenFrameSource(file, Side::kLeft);
-  if (!source.ok()) Fail(std::string(source.status().message()));
-  auto frame = (*source)->Next();
-  if (!frame.ok() || !*frame) Fail("cannot read " + file);
-  auto image = DecodeGray((*frame)->view());
+  const auto frame = client::ReadImage(file);
+  if (!frame.ok()) Fail(std::string(frame.status().message()));
+  auto image = DecodeGray(frame->view());
   if (!image.ok()) Fail(file + ": " + std::string(image.status().message()));
   if (size.empty() || image->size() == size) return image->clone();
   cv::Mat resized;

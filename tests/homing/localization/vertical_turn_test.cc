@@ -31,7 +31,9 @@ ObservedFlow TurningFlow(double turn, double driven) {
 }
 
 std::array<Camera, 2> Calibrated() {
-  Camera camera{.width = 320, .height = 240};
+  Camera camera;
+  camera.width = 320;
+  camera.height = 240;
   camera.intrinsics = Intrinsics{kFocal, kFocal, 159.5, 119.5};
   return {camera, camera};
 }
