@@ -1,4 +1,5 @@
-// usage: homing_scale SERVER BENCH DATABASE_SH [--quick] [--only rounds|throughput] [--rounds N]
+// usage: homing_scale SERVER BENCH DATABASE_SH [--quick] [--untimed] [--only rounds|throughput]
+// [--rounds N]
 #include <CLI/CLI.hpp>
 #include <string>
 
@@ -7,6 +8,7 @@
 int main(int argc, char** argv) {
   homing::scale::Programs programs;
   bool quick = false;
+  bool untimed = false;
   std::string only;
   int rounds = 0;
   CLI::App app("Many servers on one PostgreSQL, a line each.");
@@ -14,12 +16,15 @@ int main(int argc, char** argv) {
   app.add_option("bench", programs.bench)->required();
   app.add_option("database", programs.database)->required();
   app.add_flag("--quick", quick, "Few rounds, for CI");
+  app.add_flag("--untimed", untimed, "Gaps are printed and not judged: other work runs beside");
   app.add_option("--only", only, "One part");
   app.add_option("--rounds", rounds, "Rounds of kills");
   CLI11_PARSE(app, argc, argv);
   if (rounds == 0) rounds = quick ? 2 : 20;
   homing::faults::Figures figures;
-  if (only.empty() || only == "rounds") homing::scale::CheckRounds(programs, rounds, &figures);
+  if (only.empty() || only == "rounds") homing::scale::{
+      homing::scale::CheckRounds(programs, rounds, !untimed, &figures);
+    }
   if (only.empty() || only == "throughput") {
     homing::scale::CheckThroughput(programs, quick ? 4 : 20, &figures);
   }
