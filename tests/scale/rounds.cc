@@ -132,12 +132,12 @@ void ReportGaps(GapWatch* gaps, bool judges, faults::Figures* figures) {
   const std::pair<const char*, double> bounds[] = {
       {"server_killed", 5}, {"server_paused", 10}, {"database_promoted", 5}, {"replica_added", 10}};
   for (const auto& [event, most] : bounds) {
-    const double seconds = gaps->LongestSeconds(event);
+    const double longest = gaps->LongestSeconds(event);
     const std::string name = absl::StrCat("scale_gap_", event, "_s");
     if (judges) {
-      figures->AtMost(name, seconds, most);
+      figures->AtMost(name, longest, most);
     } else {
-      std::cout << name << " " << seconds << " not judged\n";
+      std::cout << name << " " << longest << " not judged\n";
     }
   }
 }
