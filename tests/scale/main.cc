@@ -22,9 +22,9 @@ int main(int argc, char** argv) {
   CLI11_PARSE(app, argc, argv);
   if (rounds == 0) rounds = quick ? 2 : 20;
   homing::faults::Figures figures;
-  if (only.empty() || only == "rounds") homing::scale::{
-      homing::scale::CheckRounds(programs, rounds, !untimed, &figures);
-    }
+  if (only.empty() || only == "rounds") {
+    homing::scale::CheckRounds(programs, rounds, !untimed, &figures);
+  }
   if (only.empty() || only == "throughput") {
     homing::scale::CheckThroughput(programs, quick ? 4 : 20, &figures);
   }
