@@ -1,6 +1,7 @@
 #include "client/command/progress.h"
 
 #include <unistd.h>
+#include <cmath>
 
 #include <algorithm>
 #include <cstdio>
@@ -61,7 +62,7 @@ std::string ProgressText(const std::string& title, std::int64_t worked, std::int
   const double rate = static_cast<double>(worked) / seconds;
   absl::StrAppendFormat(&line, "  %.1f/s", rate);
   if (total > done) {
-    const auto left = static_cast<std::int64_t>(static_cast<double>(total - done) / rate + 0.5);
+    const auto left = std::llround(static_cast<double>(total - done) / rate);
     absl::StrAppendFormat(&line, "  %d:%02d left", left / 60, left % 60);
   }
   return line;

@@ -97,6 +97,7 @@ absl::Status Follow(const Session& session) {
         }
         if (session.json) return absl::OkStatus();
         std::vector<v1::Robot> all;
+        all.reserve(robots.size());
         for (const auto& [name, robot] : robots) all.push_back(robot);
         // Home, and clear what is below: the table is drawn over the one before.
         HOMING_RETURN_IF_ERROR(session.Print("\x1b[H\x1b[J"));

@@ -162,8 +162,9 @@ FlowField ProjectedEyes::Field(const Pose& from, const Pose& to, std::int64_t fr
     const double end_x = to_ray.x * Simulator::kFocal + Simulator::kCenterX;
     const double end_y = to_ray.y * Simulator::kFocal + Simulator::kCenterY;
     if (!Inside(x, y) || !Inside(end_x, end_y)) continue;
-    bool& cell = taken[static_cast<std::size_t>(static_cast<int>(y) / kCellPx * kColumns +
-                                                static_cast<int>(x) / kCellPx)];
+    const int row = static_cast<int>(y) / kCellPx;
+    const int column = static_cast<int>(x) / kCellPx;
+    bool& cell = taken[static_cast<std::size_t>(row) * kColumns + static_cast<std::size_t>(column)];
     if (cell || random.Chance(missing)) continue;
     if (before.NearestDepth(from_ray) < a[2] * 0.98 || now.NearestDepth(to_ray) < b[2] * 0.98) {
       continue;

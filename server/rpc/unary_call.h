@@ -29,7 +29,7 @@ grpc::ServerUnaryReactor* ServeUnary(ServiceCore* core, grpc::CallbackServerCont
   } else if (admitted.ok() &&
              core->pool.TryRun([reactor, incoming, resource, call = std::move(call)] {
                reactor->Finish(incoming->Finish(Guarded([&] {
-                 const absl::Status allowed = incoming->Authorize(resource);
+                 absl::Status allowed = incoming->Authorize(resource);
                  if (!allowed.ok()) return allowed;
                  if constexpr (std::is_invocable_v<Call, JourneyFilter, const IncomingCall&>) {
                    return call(incoming->filter(), *incoming);
