@@ -7,6 +7,7 @@
 #include <sstream>
 #include <vector>
 
+#include "server/config/option_table.h"
 #include "server/config/server_options.h"
 #include "tests/fuzz/fuzz_input.h"
 

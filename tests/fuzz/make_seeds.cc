@@ -11,6 +11,7 @@
 #include "homing/v1/homing_service.pb.h"
 #include "homing/v1/journey_service.pb.h"
 #include "proto/wire/observation_conversion.h"
+#include "server/config/option_table.h"
 #include "server/config/server_options.h"
 #include "server/service/journey_archive.h"
 #include "tests/server/compressed_images.h"
