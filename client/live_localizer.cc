@@ -35,7 +35,7 @@ LiveLocalizer::LiveLocalizer(const Connection* connection, const LocalizingOptio
 
 LiveLocalizer::~LiveLocalizer() = default;
 
-void LiveLocalizer::Run(LocalizingOptions options, const std::stop_token& stop) {
+void LiveLocalizer::Run(const LocalizingOptions& options, const std::stop_token& stop) {
   Queue queue(this, stop);
   const absl::Status status = client_.Localize(
       options, &queue,

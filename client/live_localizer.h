@@ -34,7 +34,7 @@ class LiveLocalizer {
  private:
   class Queue;
 
-  void Run(LocalizingOptions options, const std::stop_token& stop);
+  void Run(const LocalizingOptions& options, const std::stop_token& stop);
   // The next answer or the error. REQUIRES: one of them, and the lock.
   absl::StatusOr<v1::LocalizeResponse> Take();
 

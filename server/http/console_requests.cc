@@ -79,8 +79,8 @@ bool ConsoleServer::State::Refuse(const Request& request, Response* response) co
 
 absl::StatusOr<Login> ConsoleServer::State::LoginOf(const Request& request) {
   if (context.access->is_open()) return sessions.OfAnybody();
-  if (!options.user_header.empty() && request.has_header(options.user_header.c_str())) {
-    const std::string user = request.get_header_value(options.user_header.c_str());
+  if (!options.user_header.empty() && request.has_header(options.user_header)) {
+    const std::string user = request.get_header_value(options.user_header);
     return sessions.OfUser(absl::StrCat("operators/", user));
   }
   const auto login = sessions.Find(CookieOf(request.get_header_value("Cookie"), kCookie));
