@@ -33,7 +33,7 @@ void ConsoleServer::State::Route() {
   server->set_pre_routing_handler([this](const Request& request, Response& response) {
     return Refuse(request, &response) ? Handled::Handled : Handled::Unhandled;
   });
-  server->set_exception_handler([](const Request&, Response& response, std::exception_ptr) {
+  server->set_exception_handler([](const Request&, Response& response, const std::exception_ptr&) {
     Send(&response, ToAnswer(absl::InternalError("the request failed")));
   });
   server->Get("/metrics", [this](const Request&, Response& response) {
