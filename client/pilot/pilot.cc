@@ -159,7 +159,7 @@ PilotCommand Pilot::Drive(double now_s) {
 
 PilotCommand Pilot::TurnRound() {
   if (std::abs(now_.heading) < kTurnedRound) {
-    // What is left is told by the answers, as what was wrong before.
+    // The next answers report the heading error that remains.
     state_ = State::kDriving;
     round_s_ = last_drive_s_;
     turn_time_s_ = answer_time_s_ = last_drive_s_;

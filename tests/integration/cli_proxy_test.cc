@@ -33,7 +33,7 @@ int FreePort() {
 class CliProxyTest : public CliTest {
  protected:
   void SetUp() override {
-    if (::access(kNginx, X_OK) != 0) GTEST_SKIP() << "nginx is not installed";
+    if (::access(kNginx, X_OK) != 0) GTEST_SKIP() << "SKIPPED: nginx is not installed";
     StartServer();
     const std::string port = std::to_string(FreePort());
     std::ofstream(Path("nginx.conf"))

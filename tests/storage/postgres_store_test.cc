@@ -23,7 +23,7 @@ class PostgresStoreTest : public ::testing::Test {
   void SetUp() override {
     std::string reason;
     server_ = test::PostgresServer::Shared(&reason);
-    if (server_ == nullptr) GTEST_SKIP() << reason;
+    if (server_ == nullptr) GTEST_SKIP() << "SKIPPED: " << reason;
     url_ = server_->NewDatabase();
     database_ = url_.substr(url_.find("@/") + 2);
     database_ = database_.substr(0, database_.find('?'));

@@ -16,7 +16,7 @@ void EveryStore::SetUp() {
   if (GetParam() == StoreKind::kPostgres) {
     std::string reason;
     test::PostgresServer* const server = test::PostgresServer::Shared(&reason);
-    if (server == nullptr) GTEST_SKIP() << reason;
+    if (server == nullptr) GTEST_SKIP() << "SKIPPED: " << reason;
     url = server->NewDatabase();
   }
   store_ = OpenOrDie(url);
