@@ -76,6 +76,9 @@ void AddCommonFlags(CLI::App& app, Session& session) {
   app.add_option("--tls-key", connection.tls_key, "TLS: PEM file of this robot's key");
   app.add_option("--token-file", connection.token_file, "File of this robot's token")
       ->envname("HOMING_TOKEN_FILE");
+  app.add_option("--traceparent", connection.traceparent,
+                 "W3C trace that the calls belong to; otherwise a new one")
+      ->envname("TRACEPARENT");
   app.add_flag("--insecure", connection.insecure, "Send the token in plain text off this machine");
   app.add_option_function<double>(
          "--retry-seconds",

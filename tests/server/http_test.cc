@@ -136,8 +136,6 @@ TEST(RequestGuardTest, HostsOriginsAndCookies) {
   EXPECT_FALSE(IsSameOrigin("http://a:2", "a:1"));
   EXPECT_EQ(CookieOf("x=1; homing_session=abc", "homing_session"), "abc");
   EXPECT_EQ(CookieOf("xhoming_session=abc", "homing_session"), "");
-  EXPECT_TRUE(IsTraceParent("00-4bf92f3577b34da6a3ce929d0e0e4736-00f067aa0ba902b7-01"));
-  EXPECT_FALSE(IsTraceParent("00-4bf92f3577b34da6a3ce929d0e0e4736-00f067aa0ba902b7-0\n"));
 }
 
 }  // namespace

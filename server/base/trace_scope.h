@@ -1,0 +1,27 @@
+// The trace that this thread works for, so that a line of the log can name it.
+#ifndef SERVER_BASE_TRACE_SCOPE_H_
+#define SERVER_BASE_TRACE_SCOPE_H_
+
+#include "homing/base/trace_parent.h"
+
+namespace homing::server {
+
+// `trace` must outlive the scope; null: none. Scopes nest.
+class TraceScope {
+ public:
+  explicit TraceScope(const TraceParent* trace) : before_(current_) { current_ = trace; }
+  ~TraceScope() { current_ = before_; }
+  TraceScope(const TraceScope&) = delete;
+  TraceScope& operator=(const TraceScope&) = delete;
+
+  // Of the calling thread; null: none.
+  static const TraceParent* Current() { return current_; }
+
+ private:
+  static inline thread_local const TraceParent* current_ = nullptr;
+  const TraceParent* const before_;
+};
+
+}  // namespace homing::server
+
+#endif  // SERVER_BASE_TRACE_SCOPE_H_
