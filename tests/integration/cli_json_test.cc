@@ -109,6 +109,11 @@ TEST_F(CliJsonTest, JourneysListShowExportImportDelete) {
   const Ran show = Homing({"journeys", "show", "--json", kJourney});
   ASSERT_EQ(show.Json().size(), 1U);
   EXPECT_EQ(show.Json()[0]["landmarks"].size(), show.Json()[0]["landmark_count"]);
+  EXPECT_EQ(show.Json()[0]["cameras"], (nlohmann::json{{"LEFT", "ACROSS"}, {"RIGHT", "ACROSS"}}));
+  EXPECT_GT(show.Json()[0]["bytes"], 16 * show.Json()[0]["fingerprint_count"].get<int>());
+  const Ran table = Homing({"journeys", "show", kJourney});
+  EXPECT_THAT(table.lines,
+              ::testing::Contains(HasSubstr("LEFT looks ACROSS, RIGHT looks ACROSS, ")));
   const std::string exported = Export(kJourney);
   const Ran imported =
       Homing({"journeys", "import", "--json", "robots/a/journeys/copy", Path("exported")});
