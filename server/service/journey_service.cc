@@ -116,7 +116,7 @@ grpc::ServerUnaryReactor* JourneyServiceHandler::DescribeRoute(
   return ServeUnary(
       core_, context, Rpc::kDescribeRoute, request->name(),
       [core = core_, request, response](const JourneyFilter& /*all*/) -> absl::Status {
-        return DescribeRoute(*request, &core->catalog, response);
+        return FillRouteDescription(*request, &core->catalog, response);
       });
 }
 

@@ -89,8 +89,8 @@ std::int64_t BytesOf(const JourneyMap& map) {
 
 }  // namespace
 
-absl::Status DescribeRoute(const v1::DescribeRouteRequest& request, JourneyCatalog* catalog,
-                           v1::DescribeRouteResponse* response) {
+absl::Status FillRouteDescription(const v1::DescribeRouteRequest& request, JourneyCatalog* catalog,
+                                  v1::DescribeRouteResponse* response) {
   HOMING_ASSIGN_OR_RETURN(const JourneyName name, ParseJourneyName(request.name(), "name"));
   HOMING_RETURN_IF_ERROR(
       CheckRange<std::int64_t>("columns", request.columns(), 0, kMostColumns, "columns"));

@@ -9,8 +9,8 @@
 namespace homing::server {
 
 // INVALID_ARGUMENT, NOT_FOUND.
-absl::Status DescribeRoute(const v1::DescribeRouteRequest& request, JourneyCatalog* catalog,
-                           v1::DescribeRouteResponse* response);
+absl::Status FillRouteDescription(const v1::DescribeRouteRequest& request, JourneyCatalog* catalog,
+                                  v1::DescribeRouteResponse* response);
 
 }  // namespace homing::server
 
