@@ -211,6 +211,11 @@ TEST_F(CliJsonTest, SimulateDrawAndEvaluateWorkTogether) {
   EXPECT_EQ(judged.code, 0) << judged.errors;
   EXPECT_THAT(judged.lines.back(), HasSubstr("verdict: "));
   EXPECT_TRUE(std::filesystem::exists(Path("pictures/way_home.png")));
+  // Without the truth the table has the believed steps, and the progress home.
+  const Ran told = Homing({"evaluate", "--answers", Path("home.json"), "--rows", "5"});
+  EXPECT_THAT(told.lines[0], ::testing::MatchesRegex(" *sequence +step +way home +outcome.*"));
+  EXPECT_THAT(told.lines[told.lines.size() - 2],
+              ::testing::MatchesRegex(" *[0-9]+ +[0-9]+ +[0-9]+ % +MATCH .*"));
   for (const char* picture : {"strip.svg", "strip.png"}) {
     EXPECT_EQ(Homing({"draw", "--journey", kJourney, "--out", Path(picture)}).code, 0);
     EXPECT_GT(std::filesystem::file_size(Path(picture)), 1000U);
