@@ -169,7 +169,7 @@ export function Journey({ name, session }) {
       {landmarks.length === 0 ? <Empty title="No landmarks" command={`homing journeys show ${name}`}>Nothing was recorded yet, or this login may not read the map.</Empty> : (
         <>
           <Strip journey={journey} landmarks={landmarks} twins={twins} />
-          <Chart title="Fingerprints at each step" x={counts.x} xLabel="step from home" yLabel="fingerprints" series={[{ label: 'fingerprints a step', colour: 'accent', values: counts.y, bars: true }]} />
+          <Chart title="Fingerprints at each step" x={counts.x} xLabel="step from home" yLabel="fingerprints" range={(_, __, max) => [0, Math.max(max, 1)]} series={[{ label: 'fingerprints a step', colour: 'accent', values: counts.y, bars: true }]} />
         </>)}
       {longest > 0 && (
         <>

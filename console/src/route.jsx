@@ -39,13 +39,14 @@ export function Profiles({ route, steps }) {
       const px = (step) => (w * step) / Math.max(1, steps);
       sides.forEach(([side, seen], n) => {
         const columns = seen.flow.length;
+        const most = seen.counts.reduce((a, b) => Math.max(a, b), 1);
         g.fillStyle = colour('accent');
         for (let i = 0; i < columns; ++i) {
           for (let x = 0; x < route.columns; ++x) {
             let code = 0;
             for (let y = 0; y < route.rows; ++y) code = Math.max(code, seen.counts[(i * route.rows + y) * route.columns + x]);
             if (!code) continue;
-            g.globalAlpha = code / 15;
+            g.globalAlpha = code / most;
             g.fillRect(px(i * route.each), n * lane + x * cell, px(route.each) + 0.5, cell + 0.5);
           }
         }
@@ -97,7 +98,7 @@ export function View({ title, seen, camera, partners, route, side }) {
         {seen.map((f) => (
           <g key={f.id} class={partners.has(f.id) ? 'paired' : 'single'}>
             <circle cx={f.x} cy={f.y} r={(Math.sqrt(f.count) * w) / 240} />
-            <text x={Math.min(f.x + w / 60, w * 0.92)} y={Math.max(f.y, h / 20)} font-size={w / 28}>{f.id}</text>
+            <text x={Math.min(f.x + (Math.sqrt(f.count) * w) / 240 + w / 100, w * 0.92)} y={Math.max(f.y, h / 20)} font-size={w / 28}>{f.id}</text>
           </g>))}
         <g class="histogram">{bins.map((v, x) => <rect key={x} x={x * cw + cw * 0.08} width={cw * 0.84} y={h + low * 1.1 - (low * v) / most} height={(low * v) / most} />)}
           {valley >= 0 && <line x1={(valley + 0.5) * cw} x2={(valley + 0.5) * cw} y1={h * 0.02} y2={h + low * 1.1} stroke-width={few} />}</g>

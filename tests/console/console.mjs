@@ -51,7 +51,7 @@ try {
     await page.reload();
     await page.waitForSelector('main h1');
     await pause(1300);
-    await page.screenshot({ path: `${out}/${name}-${theme}${phone ? '-phone' : ''}.png` });
+    await page.screenshot({ path: `${out}/${name}-${theme}${phone ? '-phone' : ''}.png`, fullPage: true });
     const wide = await page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
     check(`${name} ${theme}${phone ? ' phone' : ''} fits its width`, wide <= 0, wide);
     const { violations } = await new Axe({ page }).analyze();
