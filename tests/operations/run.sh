@@ -61,6 +61,8 @@ prometheus --config.file="$scratch/prometheus.yml" --storage.tsdb.path="$scratch
   --web.listen-address="127.0.0.1:$port" >"$scratch/prometheus.log" 2>&1 &
 pids="$pids $!"
 
+# A rate needs a sample from before.
+sleep 3
 "$client/bench/homing-bench" --server "$address" --robots 20 --rate 5 --seconds 12 --localize >"$scratch/load.log" 2>&1 &
 load=$!
 pids="$pids $load"
