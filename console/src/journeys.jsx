@@ -179,9 +179,9 @@ export function Journey({ name, session }) {
         </>)}
       {twins.length > 0 && (
         <section class="card"><h2>Places that look alike</h2>
-          <div class="scroll"><table><thead><tr><th scope="col" class="num">Step</th><th scope="col" class="num">Looks like</th><th scope="col" class="num">Confusion</th><th scope="col">Compare</th></tr></thead>
+          <div class="scroll"><table><thead><tr><th scope="col" class="num">Step</th><th scope="col" class="num">Looks like</th><th scope="col" class="num">Confusion</th><th scope="col"><span class="sr">Comparison</span></th></tr></thead>
             <tbody>{twins.map((t) => <tr key={t.firstStep + '-' + t.secondStep}><td class="num">{number(t.firstStep)}</td><td class="num">{number(t.secondStep)}</td><td class="num">{percent(t.confusion ?? 0)}</td>
-              <td><a href={`#/match/${name}?a=${t.firstStep ?? 0}&b=${t.secondStep ?? 0}`}>steps {t.firstStep ?? 0} and {t.secondStep ?? 0}</a></td></tr>)}</tbody></table></div>
+              <td><a href={`#/match/${name}?a=${t.firstStep ?? 0}&b=${t.secondStep ?? 0}`} aria-label={`Compare steps ${t.firstStep ?? 0} and ${t.secondStep ?? 0}`}>compare</a></td></tr>)}</tbody></table></div>
         </section>)}
       <p><a href={link('match', name)}>Compare two steps of this journey</a></p>
     </>
