@@ -9,16 +9,20 @@ namespace homing::server {
 // `trace` must outlive the scope; null: none. Scopes nest.
 class TraceScope {
  public:
-  explicit TraceScope(const TraceParent* trace) : before_(current_) { current_ = trace; }
-  ~TraceScope() { current_ = before_; }
+  explicit TraceScope(const TraceParent* trace) : before_(Slot()) { Slot() = trace; }
+  ~TraceScope() { Slot() = before_; }
   TraceScope(const TraceScope&) = delete;
   TraceScope& operator=(const TraceScope&) = delete;
 
   // Of the calling thread; null: none.
-  static const TraceParent* Current() { return current_; }
+  static const TraceParent* Current() { return Slot(); }
 
  private:
-  static inline thread_local const TraceParent* current_ = nullptr;
+  static const TraceParent*& Slot() {
+    thread_local const TraceParent* current = nullptr;
+    return current;
+  }
+
   const TraceParent* const before_;
 };
 
