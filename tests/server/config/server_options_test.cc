@@ -83,7 +83,7 @@ TEST_F(ServerOptionsTest, TheLogIsTextOrJson) {
   }
   options.log_format = "xml";
   EXPECT_THAT(Validate(options), StatusIs(absl::StatusCode::kInvalidArgument,
-                                          HasSubstr("log-format: xml must be text or json")));
+                                          HasSubstr("log-format: \"xml\" must be text or json")));
 }
 
 TEST_F(ServerOptionsTest, HelpAndVersionExitWithZero) {
