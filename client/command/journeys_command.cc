@@ -59,7 +59,9 @@ absl::Status ShowTable(const Session& session, const v1::Journey& journey,
   for (const v1::RouteSide& side : route.sides()) {
     absl::StrAppend(&cameras, Word(side.side()), " looks ", Word(side.direction()), ", ");
   }
-  HOMING_RETURN_IF_ERROR(session.Print(absl::StrCat(cameras, route.map_bytes(), " bytes")));
+  if (route.map_bytes() > 0) {
+    HOMING_RETURN_IF_ERROR(session.Print(absl::StrCat(cameras, route.map_bytes(), " bytes")));
+  }
   HOMING_RETURN_IF_ERROR(session.Print(absl::StrFormat("\n%8s  %-5s  %15s  %12s  %6s", "landmark",
                                                        "side", "steps", "fingerprints", "spread")));
   for (const v1::Landmark& landmark : landmarks) {
@@ -108,8 +110,10 @@ absl::Status Show(const Session& session, const JourneysFlags& flags) {
   HOMING_ASSIGN_OR_RETURN(const Connection connection, session.Connect());
   JourneyClient client(&connection, session.stop);
   HOMING_ASSIGN_OR_RETURN(const v1::Journey journey, client.Get(flags.journey));
-  HOMING_ASSIGN_OR_RETURN(const v1::DescribeRouteResponse route,
-                          client.DescribeRoute(flags.journey));
+  absl::StatusOr<v1::DescribeRouteResponse> described = client.DescribeRoute(flags.journey);
+  // By an older server.
+  if (absl::IsUnimplemented(described.status())) described = v1::DescribeRouteResponse();
+  HOMING_ASSIGN_OR_RETURN(const v1::DescribeRouteResponse route, std::move(described));
   std::vector<v1::Landmark> landmarks;
   HOMING_RETURN_IF_ERROR(
       client.ListLandmarks(flags.journey, false, [&](const v1::Landmark& landmark) {

@@ -1,7 +1,8 @@
 #!/bin/sh
-# Runs the commands of docs/tutorial.md as they are written there, in at most three minutes.
+# Runs the commands of docs/tutorial.md as they are written there, in at most three minutes. Variables give the
+# server a port of its own, so that another one on this machine is left alone.
 # usage: sh tests/documents/tutorial.sh [--built]
-#   --built: without the section "Build", in a folder and on a port of its own; the programs are in PATH.
+#   --built: without the section "Build", in a folder of its own; the programs are in PATH.
 set -eu
 cd "$(dirname "$0")/../.."
 scratch=$(mktemp -d)
@@ -10,11 +11,9 @@ awk -v built="${1:-}" '
   /^## / { build = /Build$/ }
   /^```/ { code = !code && $0 == "```sh"; next }
   code && !(built == "--built" && build)' docs/tutorial.md >"$scratch/commands"
-if [ "${1:-}" = --built ]; then
-  cd "$scratch"
-  port=$((20000 + $$ % 10000))
-  export HOMING_LISTEN="127.0.0.1:$port" HOMING_SERVER="127.0.0.1:$port" HOMING_HTTP=127.0.0.1:0
-fi
+[ "${1:-}" != --built ] || cd "$scratch"
+port=$((20000 + $$ % 10000))
+export HOMING_LISTEN="127.0.0.1:$port" HOMING_SERVER="127.0.0.1:$port" HOMING_HTTP=127.0.0.1:0
 # A failed command ends it, and the server with it.
 status=0
 # shellcheck disable=SC2016 # expanded by the inner shell
