@@ -9,6 +9,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "server/base/trace_scope.h"
 #include "server/rpc/incoming_call.h"
 #include "server/rpc/service_core.h"
 #include "server/rpc/status_conversion.h"
@@ -28,6 +29,7 @@ grpc::ServerUnaryReactor* ServeUnary(ServiceCore* core, grpc::CallbackServerCont
     admitted = DrainingError();
   } else if (admitted.ok() &&
              core->pool.TryRun([reactor, incoming, resource, call = std::move(call)] {
+               const TraceScope scope(incoming->trace());
                reactor->Finish(incoming->Finish(Guarded([&] {
                  absl::Status allowed = incoming->Authorize(resource);
                  if (!allowed.ok()) return allowed;

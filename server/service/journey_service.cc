@@ -6,6 +6,7 @@
 #include "server/service/journey_requests.h"
 #include "server/service/message_conversion.h"
 #include "server/service/record_stream.h"
+#include "server/service/route_description.h"
 
 namespace homing::server {
 
@@ -106,6 +107,16 @@ grpc::ServerUnaryReactor* JourneyServiceHandler::AnalyzeAliasing(
       core_, context, Rpc::kAnalyzeAliasing, request->name(),
       [core = core_, request, response](const JourneyFilter& /*all*/) -> absl::Status {
         return DescribeAliasing(*request, &core->catalog, response);
+      });
+}
+
+grpc::ServerUnaryReactor* JourneyServiceHandler::DescribeRoute(
+    grpc::CallbackServerContext* context, const v1::DescribeRouteRequest* request,
+    v1::DescribeRouteResponse* response) {
+  return ServeUnary(
+      core_, context, Rpc::kDescribeRoute, request->name(),
+      [core = core_, request, response](const JourneyFilter& /*all*/) -> absl::Status {
+        return FillRouteDescription(*request, &core->catalog, response);
       });
 }
 
