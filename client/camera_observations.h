@@ -11,9 +11,9 @@
 #include <utility>
 #include <vector>
 
-#include "client/camera_instants.h"
-#include "client/frame_source.h"
 #include "client/observation_stream.h"
+#include "client/source/camera_instants.h"
+#include "client/source/frame_source.h"
 #include "homing/base/mutex.h"
 #include "homing/flow/observation.h"
 

@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "absl/status/statusor.h"
-#include "client/frame_source.h"
+#include "client/source/frame_source.h"
 
 namespace homing::client::bag {
 
