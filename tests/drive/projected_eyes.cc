@@ -1,4 +1,4 @@
-#include "client/drive/projected_eyes.h"
+#include "tests/drive/projected_eyes.h"
 
 #include <algorithm>
 #include <array>
@@ -25,11 +25,6 @@ constexpr double kReachM = 25;
 // Corners a square metre of ground.
 constexpr double kGroundCorners = 0.7;
 constexpr double kGroundHalfWidthM = 7;
-
-double Gaussian(SeededRandom& random) {
-  const double radius = std::sqrt(-2 * std::log(1 - random.Uniform(0, 1)));
-  return radius * std::cos(kTurn * random.Uniform(0, 1));
-}
 
 // Corners of one tile, the same wherever the texture is.
 const std::vector<Vector2>& CornersOf(int texture) {
@@ -148,7 +143,7 @@ FlowField ProjectedEyes::Field(const Pose& from, const Pose& to, std::int64_t fr
   FlowField field{.width = kWidth, .height = kHeight, .vectors = {}};
   std::array<bool, std::size_t{kColumns} * kRows> taken{};
   const auto noisy = [&](double value) {
-    return static_cast<float>(value + noise_px * Gaussian(random));
+    return static_cast<float>(value + noise_px * random.Gaussian());
   };
   auto corner = std::ranges::lower_bound(corners_, route_m - kReachM, {}, &Corner::route_m);
   for (; corner != corners_.end() && corner->route_m < route_m + kReachM; ++corner) {

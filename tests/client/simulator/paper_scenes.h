@@ -1,8 +1,8 @@
 // The scenes of the paper's experiments (IV, Figs 3 to 7): few textured landmarks to the left of a
 // straight route before a plain background, nothing to the right. The
 // paper does not give sizes and textures.
-#ifndef CLIENT_SIMULATOR_PAPER_SCENES_H_
-#define CLIENT_SIMULATOR_PAPER_SCENES_H_
+#ifndef TESTS_CLIENT_SIMULATOR_PAPER_SCENES_H_
+#define TESTS_CLIENT_SIMULATOR_PAPER_SCENES_H_
 
 #include <cstdint>
 #include <memory>
@@ -34,4 +34,4 @@ inline constexpr double kPaperFps = 10;
 
 }  // namespace homing::client
 
-#endif  // CLIENT_SIMULATOR_PAPER_SCENES_H_
+#endif  // TESTS_CLIENT_SIMULATOR_PAPER_SCENES_H_

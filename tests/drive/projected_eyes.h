@@ -1,7 +1,7 @@
 // What a robot sees as flow vectors that are projected, not tracked: the corners of the world's
 // textures with what a tracker adds, a hundred times as fast as images.
-#ifndef CLIENT_DRIVE_PROJECTED_EYES_H_
-#define CLIENT_DRIVE_PROJECTED_EYES_H_
+#ifndef TESTS_DRIVE_PROJECTED_EYES_H_
+#define TESTS_DRIVE_PROJECTED_EYES_H_
 
 #include <cstdint>
 #include <optional>
@@ -50,4 +50,4 @@ class ProjectedEyes final : public RobotEyes {
 
 }  // namespace homing::client
 
-#endif  // CLIENT_DRIVE_PROJECTED_EYES_H_
+#endif  // TESTS_DRIVE_PROJECTED_EYES_H_

@@ -1,4 +1,4 @@
-#include "client/simulator/paper_scenes.h"
+#include "tests/client/simulator/paper_scenes.h"
 
 #include <numbers>
 #include <utility>
