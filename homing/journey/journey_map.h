@@ -58,7 +58,14 @@ struct JourneyStep {
   friend bool operator==(const JourneyStep&, const JourneyStep&) = default;
 };
 
-// Most steps of a journey: 46 days at five observations a second. Bounds what a damaged map claims.
+// INVALID_ARGUMENT unless the fingerprints have left before right, at most two a side, finite
+// means, counts above 0 and spreads in [0, 1e9].
+absl::Status CheckFingerprints(const JourneyStep& step);
+// INVALID_ARGUMENT if the step has a sequence below `least`.
+absl::Status CheckStepSequence(const JourneyStep& step, std::int64_t least);
+
+// Most steps of a journey: 46 days at five observations a second. Bounds the step count that a
+// damaged map claims.
 inline constexpr std::int64_t kMostSteps = 20'000'000;
 
 // Not thread-safe: the holder locks. 16 bytes a fingerprint, 16 a step, 96 a profile.
@@ -67,10 +74,10 @@ class JourneyMap {
   JourneyMap() = default;
   explicit JourneyMap(JourneySettings settings) : settings_(std::move(settings)) {}
 
-  // INVALID_ARGUMENT: `step` is not step_count() or further on (steps between are empty), a
-  // landmark that is neither known nor next or twice in the step, a side unlike the landmark's, a
-  // count not positive, a non-finite mean, over two fingerprints a side, right before left, a
-  // sequence too low for the steps between. After an error the map is as before.
+  // INVALID_ARGUMENT: `step` is below step_count() (steps left out are empty), a landmark that is
+  // neither known nor next or twice in the step, a side unlike the landmark's, as
+  // CheckFingerprints, a sequence too low for the steps in between. After an error the map is as
+  // before.
   absl::Status Append(const JourneyStep& step);
   // Adds empty steps at the end until there are `step_count`. REQUIRES: step_count <= kMostSteps.
   void ExtendTo(std::int64_t step_count);
