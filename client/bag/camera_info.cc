@@ -60,7 +60,9 @@ absl::StatusOr<Camera> ToCamera(const CameraInfo& info, bool rectified) {
     HOMING_ASSIGN_OR_RETURN(camera.intrinsics, ReadMatrix(info.matrix, kMatrixValues / 3));
     HOMING_RETURN_IF_ERROR(SetDistortion(info, &camera));
   }
-  HOMING_RETURN_IF_ERROR(Validate(camera));
+  if (const absl::Status valid = Validate(camera); !valid.ok()) {
+    return absl::InvalidArgumentError(absl::StrCat("the camera's ", std::string(valid.message())));
+  }
   return camera;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "absl/strings/str_cat.h"
+#include "homing/base/field_error.h"
 #include "homing/base/status_macros.h"
 #include "homing/flow/motion.h"
 #include "homing/journey/camera_pair.h"
@@ -34,12 +35,10 @@ absl::StatusOr<InputKind> InputKindOf(const Observation& observation) {
   const InputKind left = KindOf(observation.views[0]);
   const InputKind right = KindOf(observation.views[1]);
   if (left == InputKind::kUnknown && right == InputKind::kUnknown) {
-    return absl::InvalidArgumentError(
-        absl::StrCat("observation ", observation.sequence, " has no camera, must have at least 1"));
+    return FieldError("left", "must be set unless right is");
   }
   if (left != InputKind::kUnknown && right != InputKind::kUnknown && left != right) {
-    return absl::InvalidArgumentError(absl::StrCat(
-        "observation ", observation.sequence, " has frames and flow vectors, must have one kind"));
+    return FieldError("right", "must be frames or flow vectors, as left is");
   }
   return std::max(left, right);
 }
@@ -68,7 +67,7 @@ absl::Status JourneyRecorder::CheckKind(InputKind kind) const {
     return absl::OkStatus();
   }
   return absl::InvalidArgumentError(
-      absl::StrCat("observation has ", NameOf(kind), ", must have the journey's ", NameOf(kind_)));
+      absl::StrCat(NameOf(kind), " must be ", NameOf(kind_), ", as before"));
 }
 
 // Frames up to the last step rebuild state; flow vectors have none to rebuild.
@@ -76,8 +75,7 @@ absl::Status JourneyRecorder::CheckGrows(std::int64_t made_by, InputKind kind) c
   if (kind == InputKind::kFrames || made_by > last_sequence_) {
     return absl::OkStatus();
   }
-  return absl::InvalidArgumentError(
-      absl::StrCat("frame is ", made_by, ", must be over that of the last step, ", last_sequence_));
+  return MustBe("frame", made_by, absl::StrCat("over ", last_sequence_, ", that of the last step"));
 }
 
 std::int64_t JourneyRecorder::resend_from() const {

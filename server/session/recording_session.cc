@@ -99,7 +99,7 @@ absl::Status RecordingSession::Process(const Observation& observation, TimePoint
   const auto sizes = ImageSizes(recorder_->settings());
   auto step = recorder_->Record(observation);
   if (!step.ok()) {
-    return Within(absl::StrCat("observation[", sequence, "]"), step.status());
+    return Within("observation", step.status());
   }
   // The reference is all that tracking needs of what is durable.
   due_ = std::max(sequence + 1, next_);
@@ -128,14 +128,15 @@ absl::Status RecordingSession::CheckDue(const Observation& observation) const {
 }
 
 absl::Status RecordingSession::CheckKind(const Observation& observation) {
-  HOMING_ASSIGN_OR_RETURN(const InputKind kind, InputKindOf(observation));
-  if (kind_ != InputKind::kUnknown && kind != kind_) {
+  const absl::StatusOr<InputKind> kind = InputKindOf(observation);
+  if (!kind.ok()) return Within("observation", kind.status());
+  if (kind_ != InputKind::kUnknown && *kind != kind_) {
     return WithReason(absl::FailedPreconditionError(absl::StrCat(
-                          "observation: ", KindName(kind), " must be ", KindName(kind_),
+                          "observation: ", KindName(*kind), " must be ", KindName(kind_),
                           ", as the journey is recorded with ", KindName(kind_))),
                       {"OTHER_INPUT", {}});
   }
-  kind_ = kind;
+  kind_ = *kind;
   return absl::OkStatus();
 }
 
