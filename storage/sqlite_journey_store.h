@@ -67,7 +67,7 @@ class SqliteJourneyStore final : public JourneyStore {
   // appends.
   absl::Status Write(const Body& body);
   absl::Status Transact(const Body& body);
-  // The files are those that were opened. A store in memory has none.
+  // OK if the files are still those that were opened. A store in memory has none.
   absl::Status CheckFiles();
   void NoteLogPages(int pages);
   // After damage: the whole file passes SQLite's check again. Tries it now and then.
@@ -86,7 +86,7 @@ class SqliteJourneyStore final : public JourneyStore {
   // Bodies of Write and AppendSteps use it: they run with write_mutex_ held.
   StepAppends appends_;
   Mutex health_mutex_;
-  // Has its own mutex, so that reading it never waits for a write.
+  // It has its own mutex, so that a reader never waits for a write.
   absl::Status write_health_ HOMING_GUARDED_BY(health_mutex_);
   std::chrono::steady_clock::time_point next_check_;
   std::unique_ptr<FileIdentity> files_;

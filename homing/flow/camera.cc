@@ -18,7 +18,7 @@ namespace {
 constexpr int kMaxSidePx = 65536;
 constexpr double kMaxLengthPx = 1e6;
 constexpr double kMaxDistortion = 100;
-// Rays nearer than this to the plane of the ideal camera are out of its sight.
+// The ideal camera does not see rays with a depth below this.
 constexpr double kMinDepth = 1e-3;
 
 absl::Status CheckSize(const Camera& camera) {
@@ -44,7 +44,7 @@ bool IsDistorted(const Camera& camera) {
                                        [](double k) { return k != 0; });
 }
 
-// A point of the raw image in the ideal camera's image; nothing where that cannot see it.
+// The point of the ideal camera's image for a point of the raw image; nothing if it cannot see it.
 std::optional<Eigen::Vector2d> IdealPoint(const Camera& camera, double x, double y) {
   const Intrinsics& in = *camera.intrinsics;
   const Eigen::Vector2d distorted((x - in.center_x) / in.focal_x, (y - in.center_y) / in.focal_y);

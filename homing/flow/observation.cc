@@ -20,12 +20,12 @@ absl::Status WithSide(const absl::Status& status, std::size_t side) {
   return Within(NameOf(side), status);
 }
 
-// Finite, and no further off the image than its own size.
+// True if finite and at most one image size outside the image.
 bool IsPlausible(float p, int side) {
   return (p >= -static_cast<float>(side)) & (p <= 2 * static_cast<float>(side));
 }
 
-// All vectors; without a branch for each.
+// Checks all vectors, without a branch a vector.
 HOMING_VECTOR_CLONES
 bool ArePlausible(const FlowField& field) {
   std::int32_t beyond = 0;
@@ -88,7 +88,7 @@ absl::Status CheckCameraSize(const cv::Size& size, const Camera& camera) {
                                                     camera.height, " px of the journey's camera"));
 }
 
-// Flow vectors as they came. What spans a break is dropped.
+// Copies the flow vectors; drops those that span a break.
 ObservedFlow PassOn(const Observation& observation) {
   ObservedFlow flow;
   bool has_field = false;
@@ -141,7 +141,7 @@ absl::StatusOr<ObservedFlow> ObservationFlow::Compute(const Observation& observa
   if (checked[0].size.area() == 0 && checked[1].size.area() == 0) {
     return FieldError("left", "must be set unless right is");
   }
-  // Nothing below fails.
+  // No check below fails, so the state may change.
   for (std::size_t side = 0; side < 2; ++side) {
     if (checked[side].size.area() != 0) sizes_[side] = checked[side].size;
   }
@@ -150,7 +150,7 @@ absl::StatusOr<ObservedFlow> ObservationFlow::Compute(const Observation& observa
     return PassOn(observation);
   }
   HOMING_ASSIGN_OR_RETURN(ObservedFlow flow, TrackFrames(checked));
-  // Without corners in common nothing will ever be measured from this reference.
+  // Without common corners no flow can be measured from this reference any more: replace it.
   if (flow.makes_step || !HasMoved(flow.fields)) {
     Advance(checked);
     reference_sequence_ = observation.sequence;
@@ -175,7 +175,7 @@ void ObservationFlow::ForgetReference() {
 
 absl::StatusOr<ObservedFlow> ObservationFlow::TrackFrames(const CheckedViews& checked) {
   ObservedFlow flow;
-  // A camera had something to track, has something to track it to, and found next to none of it.
+  // Both frames of a camera have corners, but almost none could be tracked.
   bool lost = false;
   for (std::size_t side = 0; side < 2; ++side) {
     if (checked[side].gray.empty()) continue;

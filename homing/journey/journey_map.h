@@ -20,7 +20,7 @@
 
 namespace homing {
 
-// A landmark as counted along the journey.
+// A landmark, numbered along the journey.
 struct Landmark {
   Side side = Side::kLeft;
   std::int64_t first_step = 0;
@@ -43,7 +43,7 @@ struct RecordedFingerprint {
 // step.
 inline constexpr std::int64_t kNextSequence = -1;
 
-// One step of a journey. Without fingerprints when turning, or nothing was seen.
+// One step of a journey. It has no fingerprints if the robot turned or nothing was seen.
 struct JourneyStep {
   // From 0, home first.
   std::int64_t step = 0;
@@ -98,16 +98,16 @@ class JourneyMap {
   std::int64_t sequence(std::int64_t step) const {
     return sequences_[static_cast<std::size_t>(step)];
   }
-  // REQUIRES: one of the map's.
+  // REQUIRES: a fingerprint of this map.
   std::int64_t step_of(const Fingerprint& f) const;
   std::span<const Fingerprint> all_fingerprints() const { return fingerprints_; }
-  // Of each step, all 0 where it has none; empty if no step of this side has any.
+  // The profile of each step, all 0 where a step has none; empty if no step of this side has one.
   std::span<const FlowProfile> profiles(Side side) const {
     return profiles_[static_cast<std::size_t>(side)];
   }
-  // One that is all 0 is none. REQUIRES: 0 <= step < step_count().
+  // An all-zero profile counts as none. REQUIRES: 0 <= step < step_count().
   void set_profile(std::int64_t step, Side side, const FlowProfile& profile);
-  // What MeasuredScale found; shared by all that read this map.
+  // The result of MeasuredScale, shared by all readers of this map.
   MeasuredRoute& measured_route() const { return measured_route_; }
   // Indexed by landmark number.
   const std::vector<Landmark>& landmarks() const { return landmarks_; }
@@ -125,7 +125,7 @@ class JourneyMap {
   absl::Status CheckSequence(const JourneyStep& step) const;
   // The sequence of a step that is appended without one.
   std::int64_t NextSequence() const;
-  // Of the fingerprint at `index`, with landmarks below `known` met by then.
+  // Checks the fingerprint at `index`; `known` landmarks were met before it.
   absl::Status CheckLandmark(const JourneyStep& step, std::size_t index, std::size_t known) const;
   void CountIn(std::int64_t step, const RecordedFingerprint& recorded);
 

@@ -95,7 +95,7 @@ absl::StatusOr<std::optional<JourneyStep>> JourneyRecorder::Record(const Observa
   if (!flow.makes_step || made_by <= last_sequence_) {
     return std::nullopt;
   }
-  // Own design: what an ideal camera, square to the direction of travel, would have seen.
+  // Added to the paper: the flow that ideal cameras, square to the direction of travel, would see.
   flow = Rectify(flow, settings_.cameras);
   JourneyStep step{.step = next_step_,
                    .motion = ClassifyMotion(flow, settings_.cameras),
@@ -117,14 +117,14 @@ void JourneyRecorder::AddLandmarks(Side side, const std::optional<FlowField>& fi
   if (!field) {
     return;
   }
-  // Own design: where the vectors are, and how far away.
+  // Added to the paper: where the vectors are, and how far away.
   step.profiles[static_cast<std::size_t>(side)] = MakeFlowProfile(*field);
   // III, Fig. 4, equations (11), (12): at most two landmarks a camera.
   const std::vector<SeenLandmark> seen = FindLandmarks(*field, settings_.landmark);
-  // III: counted along the journey.
-  const std::vector<Fingerprint> counted = tracker_.Count(step.step, side, seen);
-  for (std::size_t i = 0; i < counted.size(); ++i) {
-    step.fingerprints.push_back({side, counted[i], seen[i].spread});
+  // III: numbered along the journey.
+  const std::vector<Fingerprint> numbered = tracker_.Associate(step.step, side, seen);
+  for (std::size_t i = 0; i < numbered.size(); ++i) {
+    step.fingerprints.push_back({side, numbered[i], seen[i].spread});
   }
 }
 

@@ -1,4 +1,4 @@
-// Keeps the journeys in memory like a store that other servers write to.
+// Keeps the journeys in memory equal to a store that other servers write to.
 #ifndef SERVER_CATALOG_JOURNEY_FOLLOWER_H_
 #define SERVER_CATALOG_JOURNEY_FOLLOWER_H_
 

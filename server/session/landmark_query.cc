@@ -34,7 +34,7 @@ absl::Status CheckFingerprints(const SeenFingerprints& seen) {
   return absl::OkStatus();
 }
 
-// Sizes of the views' images; a pair of frames has the size of its first one.
+// The sizes of the views' images; of a pair of frames, the size of the first.
 absl::StatusOr<QueryRobot> MeasureRobot(const LandmarkQuery& query, const DecodeLimits& limits) {
   QueryRobot robot;
   robot.travel = query.travel;
@@ -56,7 +56,7 @@ absl::StatusOr<QueryRobot> MeasureRobot(const LandmarkQuery& query, const Decode
   return robot;
 }
 
-// Raw flow of one camera (II-B); none for fingerprints and for an absent camera.
+// The raw flow of one camera (II-B); none for fingerprints and for an absent camera.
 absl::StatusOr<ObservedFlow> FlowOf(const QueryView& view, std::size_t side,
                                     const FlowOptions& options, const DecodeLimits& limits) {
   ObservationFlow tracker(options, limits);
@@ -79,7 +79,7 @@ struct SeenNow {
   SeenSides sides;
 };
 
-// Views to flow to motion to landmarks, by side of the route.
+// Computes flow, motion and landmarks of the views, by side of the route.
 absl::StatusOr<SeenNow> See(const LandmarkQuery& query, const LocalizerOptions& options,
                             const DecodeLimits& limits) {
   SeenNow now;

@@ -12,7 +12,7 @@
 namespace homing::server {
 namespace {
 
-// Size of one camera's image; a compressed frame without a size is decoded for it.
+// Sets the size of one camera's image. Decodes the frame, since a compressed one may give no size.
 absl::Status MeasureView(const CameraView& view, const DecodeLimits& limits, int* width,
                          int* height) {
   if (const auto* flow = std::get_if<FlowField>(&view)) {
@@ -91,7 +91,7 @@ absl::Status LocalizationSession::Start(const Observation& observation) {
   return absl::OkStatus();
 }
 
-// A journey that is not among those chosen says nothing.
+// A prior on a journey that was not selected is ignored.
 absl::Status LocalizationSession::StartAt(const LocalizationPrior& prior) {
   for (std::size_t i = 0; i < journeys_.size(); ++i) {
     if (journeys_[i]->name() != prior.journey) continue;

@@ -82,7 +82,7 @@ void RecordingSession::Record(const Observation& observation, TimePoint now) {
 
 void RecordingSession::Reject(const absl::Status& status) { Complete(OpenSlot(), status, {}); }
 
-// Check the sequence, make the step, submit it; the commit sends the answer.
+// Checks the sequence, makes the step and submits it; the commit sends the answer.
 absl::Status RecordingSession::Process(const Observation& observation, TimePoint now,
                                        std::int64_t slot) {
   HOMING_RETURN_IF_ERROR(claim_.journey->Renew(claim_.claim, now));
@@ -101,7 +101,7 @@ absl::Status RecordingSession::Process(const Observation& observation, TimePoint
   if (!step.ok()) {
     return Within("observation", step.status());
   }
-  // The reference is all that tracking needs of what is durable.
+  // Of the durable observations, tracking needs the reference only.
   due_ = std::max(sequence + 1, next_);
   if (sequence < next_) {
     Complete(slot, absl::OkStatus(), std::move(answer));
