@@ -52,14 +52,9 @@ void AddFrameChoice(CLI::App& command, FrameChoice& frames) {
       .add_option("--seconds", frames.seconds,
                   "End after so many seconds of the source [at its end]")
       ->check(CLI::Range(1e-3, 1e9));
-  CLI::Option* strict = command.add_flag(
-      "--strict", frames.strict,
-      "End at a bad frame, and refuse frames of one camera that have no partner of the other");
-  command
-      .add_flag_function(
-          "--skip-bad-frames", [&frames](std::int64_t) { frames.strict = false; },
-          "Skip and report them (empty, damaged, of another size): this is the default")
-      ->excludes(strict);
+  command.add_flag("--strict", frames.strict,
+                   "End at a bad frame (empty, damaged, of another size) instead of skipping and "
+                   "reporting it, and refuse frames of one camera without a partner of the other");
 }
 
 }  // namespace
