@@ -1,5 +1,5 @@
-// What robots and calibration programs say of a camera, to the camera of this program. Source:
-// sensor_msgs/CameraInfo.
+// Converts the camera description of robots and calibration programs to this program's Camera.
+// Source: sensor_msgs/CameraInfo.
 #ifndef CLIENT_BAG_CAMERA_INFO_H_
 #define CLIENT_BAG_CAMERA_INFO_H_
 

@@ -1,5 +1,5 @@
-// Pixels as robots record them, to those that the server takes. Source: the encodings' names in
-// sensor_msgs.
+// Converts pixels as robots record them to encodings that the server accepts. Source: the names of
+// encodings in sensor_msgs.
 #ifndef CLIENT_BAG_RAW_IMAGE_H_
 #define CLIENT_BAG_RAW_IMAGE_H_
 
