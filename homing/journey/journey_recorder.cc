@@ -19,10 +19,6 @@ InputKind KindOf(const CameraView& view) {
   return std::holds_alternative<FlowField>(view) ? InputKind::kFlowVectors : InputKind::kUnknown;
 }
 
-const char* NameOf(InputKind kind) {
-  return kind == InputKind::kFrames ? "frames" : "flow vectors";
-}
-
 // JourneyStep::sequence of the step that the observation may make.
 std::int64_t FrameOf(const Observation& observation, InputKind kind) {
   return kind == InputKind::kFlowVectors ? observation.frame.value_or(observation.sequence)
@@ -30,6 +26,10 @@ std::int64_t FrameOf(const Observation& observation, InputKind kind) {
 }
 
 }  // namespace
+
+const char* NameOf(InputKind kind) {
+  return kind == InputKind::kFrames ? "frames" : "flow vectors";
+}
 
 absl::StatusOr<InputKind> InputKindOf(const Observation& observation) {
   const InputKind left = KindOf(observation.views[0]);

@@ -17,6 +17,9 @@ namespace homing {
 // The kind of input of a journey; fixed by its first observation.
 enum class InputKind { kUnknown = 0, kFrames = 1, kFlowVectors = 2 };
 
+// "frames", "flow vectors". REQUIRES: known.
+const char* NameOf(InputKind kind);
+
 // INVALID_ARGUMENT: frames and flow vectors in one observation, or no camera.
 absl::StatusOr<InputKind> InputKindOf(const Observation& observation);
 

@@ -15,10 +15,6 @@
 namespace homing::server {
 namespace {
 
-std::string KindName(InputKind kind) {
-  return kind == InputKind::kFrames ? "frames" : "flow vectors";
-}
-
 // The part of the settings that an observation may change.
 std::array<int, 4> ImageSizes(const JourneySettings& settings) {
   const auto& [left, right] = settings.cameras;
@@ -131,9 +127,9 @@ absl::Status RecordingSession::CheckKind(const Observation& observation) {
   const absl::StatusOr<InputKind> kind = InputKindOf(observation);
   if (!kind.ok()) return Within("observation", kind.status());
   if (kind_ != InputKind::kUnknown && *kind != kind_) {
-    return WithReason(absl::FailedPreconditionError(absl::StrCat(
-                          "observation: ", KindName(*kind), " must be ", KindName(kind_),
-                          ", as the journey is recorded with ", KindName(kind_))),
+    return WithReason(absl::FailedPreconditionError(
+                          absl::StrCat("observation: ", NameOf(*kind), " must be ", NameOf(kind_),
+                                       ", as the journey is recorded with ", NameOf(kind_))),
                       {"OTHER_INPUT", {}});
   }
   kind_ = *kind;
