@@ -1,6 +1,6 @@
 // Drives a robot home along its outbound path by the answers of Localize: answers in, speed and
-// turn rate out. It does not avoid obstacles. docs/how-to-steer.md says how to
-// tune it for a robot.
+// turn rate out. Obstacles are the robot's own business. docs/how-to-steer.md
+// says how to tune it for a robot.
 #ifndef CLIENT_PILOT_PILOT_H_
 #define CLIENT_PILOT_PILOT_H_
 
@@ -10,15 +10,15 @@
 
 namespace homing::client {
 
-// The part of an answer of Localize that the pilot uses; left and right are the robot's.
+// What one answer of Localize says, in the robot's own left and right.
 struct PilotAnswer {
   enum class Outcome { kMatch, kAmbiguous, kUnknownPlace };
-  // Sequence of the observation, from 0 without gaps; not all answers need to arrive.
+  // Of the observation, from 0 without gaps; not all of them need to arrive.
   std::int64_t sequence = 0;
   // The robot's clock when the observation was made, s.
   double time_s = 0;
   Outcome outcome = Outcome::kAmbiguous;
-  // The robot turned on the spot.
+  // Turned on the spot.
   bool is_turning = false;
   double probability = 0;
   // Way home, 0 at the far end, 1 at home.
@@ -27,7 +27,7 @@ struct PilotAnswer {
   std::optional<double> speed_ratio;
   // Rad to the left since the last answer that had one, beyond what the path needs.
   std::optional<double> turn;
-  // Metres left of the path, divided by the distance of the seen objects.
+  // Metres left of the path over the distance of what is seen.
   std::optional<double> path_offset;
 };
 
@@ -41,12 +41,12 @@ struct PilotOptions {
   // Turns round first, and drives home ahead (Localize with travel RETURN); else drives home in
   // reverse (SAME).
   bool turn_round = true;
-  // Length of the outbound path, m. Above 0.
+  // Of the outbound path, m. Above 0.
   double route_m = 60;
   // Limits. Above 0.
   double most_speed_mps = 1;
   double most_turn_rate = 0.7;
-  // Typical distance of the seen objects, m: converts `path_offset` to metres. Above 0.
+  // How far away is what the cameras see, m: turns `path_offset` into metres. Above 0.
   double distance_m = 5;
   // Rad of heading back to the path for each metre beside it, and the most of it.
   double heading_per_m = 0.35;
@@ -60,9 +60,9 @@ struct PilotOptions {
   // Speed while unsure and while searching, share of the most.
   double unsure_speed = 0.5;
   double search_speed = 0.3;
-  // Stops and searches after this many metres of unsure answers.
+  // Unsure for so many metres driven: stops and searches.
   double patience_m = 2;
-  // Slows down, and stops, after this time without an answer, s.
+  // No answer for so long: slows down, stops. s.
   double slow_after_s = 0.6;
   double stop_after_s = 1.2;
   // Stops this far before home, m.
@@ -94,16 +94,16 @@ class Pilot {
     double heading = 0;
     double remaining_m = 0;
   };
-  // The command from a time on, and the motion of the actuators at that time.
+  // What was commanded from a time on, and what the actuators then did.
   struct Past {
     double time_s = 0;
     double speed_mps = 0;
     double turn_rate = 0;
   };
 
-  // Turn and distance between two times, by the commands.
+  // Turned and driven between two times, as the commands say.
   double Turned(double from_s, double to_s) const;
-  // The belief at `from_s`, moved on by the commands since.
+  // The belief of time `from_s` carried on.
   Belief Carried(const Belief& belief, double from_s, double to_s) const;
   void TakeTurn(const PilotAnswer& answer);
   void Watch(const PilotAnswer& answer, const Belief& expected);
@@ -124,22 +124,22 @@ class Pilot {
   double answer_time_s_ = 0;
   // Of the last answer that had a turn.
   double turn_time_s_ = 0;
-  // The time at which the robot had turned round.
+  // When it had turned round.
   double round_s_ = 0;
   std::int64_t last_sequence_ = -1;
   // When an answer arrived; below 0: never.
   double heard_s_ = -1;
   double last_drive_s_ = -1;
   bool is_sure_ = false;
-  // Distance driven since the pilot was last sure, m.
+  // Driven since the pilot was last sure, m.
   double unsure_m_ = 0;
   double searched_m_ = 0;
-  // Metres left of the path, integrated from the heading and held near the answers' offsets.
+  // Metres left of the path as the heading has them, held near what the answers say.
   double watched_m_ = 0;
   bool is_watching_ = false;
-  // Estimated turn rate without a command: slip, and bends of the path.
+  // Turn rate that nobody commanded: slip, and the path's own bends.
   double drift_ = 0;
-  // Current motion of the actuators.
+  // What the actuators do now.
   PilotCommand motion_;
   std::deque<Past> past_;
 };
