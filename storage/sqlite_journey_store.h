@@ -67,7 +67,7 @@ class SqliteJourneyStore final : public JourneyStore {
   // appends.
   absl::Status Write(const Body& body);
   absl::Status Transact(const Body& body);
-  // OK if the files are still those that were opened. A store in memory has none.
+  // The files are those that were opened. A store in memory has none.
   absl::Status CheckFiles();
   void NoteLogPages(int pages);
   // After damage: the whole file passes SQLite's check again. Tries it now and then.

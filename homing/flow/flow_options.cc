@@ -19,8 +19,8 @@ absl::Status CheckOddRange(const std::string& field, int value, int low, int hig
   return MustBe(field, value, absl::StrCat("odd and in [", low, ", ", high, "] px"));
 }
 
-// Bounds the time for a pair of frames to a fraction of a second: it grows with the number of
-// cells, one corner each, and with the area of the window that tracks a corner.
+// One corner a cell, each tracked by its window: together they say how long a pair of frames takes.
+// The limit is a fraction of a second.
 absl::Status CheckWork(const FlowOptions& options) {
   constexpr double kMostWindowPixels = 1 << 26;
   const int width = options.working_width_px == 0 ? kMaxWorkingWidth : options.working_width_px;

@@ -35,7 +35,7 @@ constexpr double kConvergencePx = 0.01;
 // Least eigenvalue of A^T A for a solution (eqs 3 to 5), OpenCV's units; corners have far more.
 constexpr double kSingular = 1e-4;
 
-// Fills `frame`, and reuses its images if they have the same size.
+// Into `frame`, whose images of the same size are used again.
 void Prepare(const cv::Mat& gray, const FlowOptions& options, FlowBuffers* buffers,
              TrackedFrame* frame) {
   const cv::Mat& normalized = NormalizedImage(gray, options, &buffers->working);
@@ -61,7 +61,7 @@ Tracks TrackPoints(const TrackedFrame& from, const TrackedFrame& to,
   const cv::Size window(options.window_px, options.window_px);
   const cv::TermCriteria end(cv::TermCriteria::COUNT | cv::TermCriteria::EPS, kIterations,
                              kConvergencePx);
-  // OpenCV does not compute the matching error here: it costs as much as an iteration.
+  // No error is asked for: it costs as much as an iteration.
   cv::calcOpticalFlowPyrLK(from.pyramid, to.pyramid, points, tracks.ends, tracks.found,
                            cv::noArray(), window, options.pyramid_levels, end, 0, kSingular);
   return tracks;

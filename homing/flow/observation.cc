@@ -141,7 +141,7 @@ absl::StatusOr<ObservedFlow> ObservationFlow::Compute(const Observation& observa
   if (checked[0].size.area() == 0 && checked[1].size.area() == 0) {
     return FieldError("left", "must be set unless right is");
   }
-  // No check below fails, so the state may change.
+  // Nothing below fails.
   for (std::size_t side = 0; side < 2; ++side) {
     if (checked[side].size.area() != 0) sizes_[side] = checked[side].size;
   }
