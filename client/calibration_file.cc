@@ -13,7 +13,7 @@
 #include "absl/strings/match.h"
 #include "absl/strings/numbers.h"
 #include "absl/strings/str_cat.h"
-#include "client/camera_info.h"
+#include "client/bag/camera_info.h"
 #include "homing/base/range_check.h"
 #include "homing/base/status_macros.h"
 

@@ -11,9 +11,9 @@
 #include <utility>
 #include <vector>
 
-#include "client/camera_instants.h"
-#include "client/frame_source.h"
 #include "client/observation_stream.h"
+#include "client/source/camera_instants.h"
+#include "client/source/frame_source.h"
 #include "homing/base/mutex.h"
 #include "homing/flow/observation.h"
 
@@ -32,7 +32,7 @@ class CameraObservations : public ObservationStream {
   // The first instant becomes observation `sequence`: the earlier ones came from another source.
   // Call it before anything is read.
   void StartAt(std::int64_t sequence);
-  // Next is CANCELLED once this is requested, also while nothing moves and no flow is made.
+  // Makes Next return CANCELLED once `stop` is requested, also while no observation makes a step.
   void StopAt(std::stop_token stop) { stop_ = std::move(stop); }
 
   absl::StatusOr<std::optional<v1::Observation>> Next() override;
@@ -64,7 +64,7 @@ class CameraObservations : public ObservationStream {
   absl::StatusOr<std::optional<CameraInstants::Instant>> ReadInstant();
   absl::StatusOr<std::optional<Observation>> NextFlow();
   v1::Observation Number(Observation observation);
-  // Reads an observation and drops it. False: the end or an error, which Next meets again.
+  // Reads an observation and drops it. False: the end or an error, which Next returns again.
   bool Skip();
   std::int64_t next_mark() const;
   void AddMark(const Mark& mark);

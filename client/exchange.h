@@ -36,7 +36,7 @@ class Exchange {
     reader.join();
     absl::Status status = FromGrpc(stream_->Finish());
     const MutexLock lock(mutex_);
-    // A source gives its error again when the broken link is restored.
+    // A source that failed returns its error again once the link is restored.
     if (source_failed_ && !status.ok()) return status;
     if (!error_.ok()) return error_;
     if (!status.ok()) return status;
@@ -62,7 +62,7 @@ class Exchange {
     while (WaitForRoom()) {
       auto next = buffer->Next();
       if (!next.ok() || *next == nullptr) {
-        // What was sent before a source failed is answered first.
+        // Observations sent before the source failed are answered first.
         source_failed_ = !next.ok();
         if (source_failed_) SetError(next.status());
         ended_ = true;

@@ -1,5 +1,5 @@
-// Localises a robot that acts on the answers: sends what it sees as it sees it, and hands over the
-// answers as they arrive, over any number of broken links.
+// Localises a robot that acts on the answers: sends observations as they are made, and returns the
+// answers as they arrive, across any number of broken links.
 #ifndef CLIENT_LIVE_LOCALIZER_H_
 #define CLIENT_LIVE_LOCALIZER_H_
 
@@ -15,20 +15,20 @@
 
 namespace homing::client {
 
-// The methods are called by one thread; a thread inside talks to the server.
+// One thread calls the methods; an inner thread calls the server.
 class LiveLocalizer {
  public:
   // REQUIRES: `connection` outlives it.
   LiveLocalizer(
       const Connection* connection, const LocalizingOptions& options, Log log = [](auto&) {});
-  // Breaks off.
+  // Cancels the stream.
   ~LiveLocalizer();
 
-  // The next observation; it is numbered here, from 0. Returns its number.
+  // Numbers the observation, from 0, and sends it. Returns its number.
   std::int64_t Send(v1::Observation observation);
-  // The next answer, if one is there. After an error there are no more. Errors as Localize.
+  // The next answer, if one has arrived. After an error there are no more. Errors as Localize.
   absl::StatusOr<std::optional<v1::LocalizeResponse>> Poll();
-  // The next answer. REQUIRES: one is due.
+  // Waits for the next answer. REQUIRES: an observation is not answered yet.
   absl::StatusOr<v1::LocalizeResponse> Wait();
 
  private:

@@ -1,4 +1,4 @@
-// Whether a recorded map is of use.
+// Judges whether a recorded map can be localised on.
 #ifndef CLIENT_MAP_QUALITY_H_
 #define CLIENT_MAP_QUALITY_H_
 

@@ -1,4 +1,4 @@
-// What the pilot needs of an answer.
+// Converts an answer of Localize for the pilot.
 #ifndef CLIENT_PILOT_ANSWER_H_
 #define CLIENT_PILOT_ANSWER_H_
 

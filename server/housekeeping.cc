@@ -4,7 +4,6 @@
 
 #include <string>
 
-#include "homing/base/mutex.h"
 #include "server/service/fleet_service.h"
 
 namespace homing::server {
@@ -25,40 +24,16 @@ Housekeeping::Housekeeping(ServiceCore* core, std::chrono::seconds reload_every,
       reload_every_(reload_every),
       certificates_(certificates),
       reload_more_(std::move(reload_more)),
-      thread_([this] { Run(); }) {}
+      thread_([this] { return Work(); }) {}
 
-Housekeeping::~Housekeeping() {
-  {
-    const MutexLock lock(mutex_);
-    stopping_ = true;
-  }
-  stop_.NotifyAll();
-  thread_.join();
-}
-
-void Housekeeping::Run() {
-  for (std::int64_t round = 0;; ++round) {
-    if (round > 0 && round % reload_every_.count() == 0) {
-      Reload();
-    }
-    core_->streams.Tick();
-    if (round % kDeleteEvery.count() == 0) {
-      DeleteExpired();
-    }
-    if (round % kCountEvery.count() == 0) {
-      CountJourneys();
-    }
-    if (round % kWarnEvery.count() == 0) {
-      WarnOfExpiry();
-    }
-    const auto next = std::chrono::steady_clock::now() + kRound;
-    const MutexLock lock(mutex_);
-    while (!stopping_ && stop_.WaitUntil(mutex_, next)) {
-    }
-    if (stopping_) {
-      return;
-    }
-  }
+std::chrono::milliseconds Housekeeping::Work() {
+  if (round_ > 0 && round_ % reload_every_.count() == 0) Reload();
+  core_->streams.Tick();
+  if (round_ % kDeleteEvery.count() == 0) DeleteExpired();
+  if (round_ % kCountEvery.count() == 0) CountJourneys();
+  if (round_ % kWarnEvery.count() == 0) WarnOfExpiry();
+  ++round_;
+  return kRound;
 }
 
 void Housekeeping::Reload() {

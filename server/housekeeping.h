@@ -4,11 +4,11 @@
 #define SERVER_HOUSEKEEPING_H_
 
 #include <chrono>
+#include <cstdint>
 #include <functional>
-#include <thread>
 
-#include "homing/base/mutex.h"
 #include "server/access/certificate_expiry.h"
+#include "server/base/periodic_thread.h"
 #include "server/clock_watch.h"
 #include "server/rpc/service_core.h"
 
@@ -21,29 +21,25 @@ class Housekeeping {
   Housekeeping(ServiceCore* core, std::chrono::seconds reload_every,
                const CertificateFiles& certificates,
                std::function<absl::Status()> reload_more = nullptr);
-  ~Housekeeping();
   // Reads certificates, tokens and roles again. Thread-safe.
   void Reload();
-  Housekeeping(const Housekeeping&) = delete;
-  Housekeeping& operator=(const Housekeeping&) = delete;
 
  private:
-  void Run();
+  // One round of all work that is due; returns the time until the next one.
+  std::chrono::milliseconds Work();
   void DeleteExpired();
   void WarnOfExpiry();
   void CountJourneys();
 
-  // Used by the thread alone.
+  // The thread alone uses these two.
   ClockWatch clock_;
+  std::int64_t round_ = 0;
 
   ServiceCore* const core_;
   const std::chrono::seconds reload_every_;
   const CertificateFiles certificates_;
   const std::function<absl::Status()> reload_more_;
-  Mutex mutex_;
-  ConditionVariable stop_;
-  bool stopping_ HOMING_GUARDED_BY(mutex_) = false;
-  std::thread thread_;
+  PeriodicThread thread_;
 };
 
 }  // namespace homing::server

@@ -5,8 +5,6 @@
 #include <string>
 #include <utility>
 
-#include "homing/base/mutex.h"
-
 namespace homing::server {
 namespace {
 
@@ -17,40 +15,20 @@ constexpr std::chrono::milliseconds kTry{1000};
 }  // namespace
 
 StoreWatch::StoreWatch(storage::JourneyStore* store, OnChange on_change)
-    : store_(store), on_change_(std::move(on_change)) {
-  thread_ = std::thread([this] { Run(); });
-}
+    : store_(store), on_change_(std::move(on_change)), thread_([this] { return Look(); }) {}
 
-StoreWatch::~StoreWatch() {
-  {
-    const MutexLock lock(mutex_);
-    stopping_ = true;
-  }
-  stopped_.NotifyOne();
-  thread_.join();
-}
-
-void StoreWatch::Run() {
-  bool well = true;
-  while (Sleep(well ? kLook : kTry)) {
-    const absl::Status status = well ? store_->WriteHealth() : store_->ProbeWrite();
-    if (status.ok() == well) continue;
-    well = status.ok();
-    if (well) {
+std::chrono::milliseconds StoreWatch::Look() {
+  const absl::Status status = well_ ? store_->WriteHealth() : store_->ProbeWrite();
+  if (status.ok() != well_) {
+    well_ = status.ok();
+    if (well_) {
       spdlog::info("the store accepts writes again");
     } else {
       spdlog::error("not serving: the store accepts no writes: {}", std::string(status.message()));
     }
-    on_change_(well);
+    on_change_(well_);
   }
-}
-
-bool StoreWatch::Sleep(std::chrono::milliseconds time) {
-  const auto end = std::chrono::steady_clock::now() + time;
-  const MutexLock lock(mutex_);
-  while (!stopping_ && stopped_.WaitUntil(mutex_, end)) {
-  }
-  return !stopping_;
+  return well_ ? kLook : kTry;
 }
 
 }  // namespace homing::server

@@ -2,10 +2,10 @@
 #ifndef SERVER_STORE_WATCH_H_
 #define SERVER_STORE_WATCH_H_
 
+#include <chrono>
 #include <functional>
-#include <thread>
 
-#include "homing/base/mutex.h"
+#include "server/base/periodic_thread.h"
 #include "storage/journey_store.h"
 
 namespace homing::server {
@@ -18,21 +18,18 @@ class StoreWatch {
   using OnChange = std::function<void(bool)>;
 
   // `store` must outlive the watch. The initial state is: writes work.
-  StoreWatch(storage::JourneyStore* store, OnChange on_change);
   // No call follows the destructor.
-  ~StoreWatch();
+  StoreWatch(storage::JourneyStore* store, OnChange on_change);
 
  private:
-  void Run();
-  // False: stopped meanwhile.
-  bool Sleep(std::chrono::milliseconds time);
+  // Looks once, and returns the time until the next look.
+  std::chrono::milliseconds Look();
 
   storage::JourneyStore* const store_;
   const OnChange on_change_;
-  Mutex mutex_;
-  ConditionVariable stopped_;
-  bool stopping_ HOMING_GUARDED_BY(mutex_) = false;
-  std::thread thread_;
+  // Used by the thread alone.
+  bool well_ = true;
+  PeriodicThread thread_;
 };
 
 }  // namespace homing::server

@@ -13,9 +13,10 @@ namespace {
 // Length of the log, in pages, at which it is moved: 48 of the 64 MiB that it may keep. A page that
 // changes often is then moved once.
 constexpr int kDuePages = 12288;
-// After an attempt that did not empty the log (a reader needs it, the disk is full).
+// Pages until the next attempt after one that did not empty the log (a reader needs it, the disk is
+// full).
 constexpr int kPagesToNextTry = 1024;
-// So few pages are moved while the writer waits: a few milliseconds.
+// At most this many pages are moved while the writer waits: a few milliseconds.
 constexpr int kFewPages = 512;
 constexpr int kMostRounds = 5;
 

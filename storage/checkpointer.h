@@ -24,7 +24,7 @@ class Checkpointer {
   static absl::StatusOr<std::unique_ptr<Checkpointer>> Start(const std::string& path,
                                                              Connection* writer, Mutex* write_mutex,
                                                              int busy_timeout_ms);
-  // As of the last commit.
+  // Pages in the log as of the last commit.
   int pages_in_log() const { return pages_in_log_; }
   // The current number in SQLite: another program may have moved the log into the file. -1:
   // unknown. Thread-safe.
@@ -45,7 +45,7 @@ class Checkpointer {
   int Move();
 
   std::atomic<int> pages_in_log_ = 0;
-  // While connection_ is used.
+  // Held while connection_ is used.
   Mutex connection_mutex_;
   const std::unique_ptr<Connection> connection_;
   Connection* const writer_;

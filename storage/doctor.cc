@@ -159,7 +159,7 @@ absl::StatusOr<Diagnosis> ExamineShared(const std::string& url) {
     HOMING_ASSIGN_OR_RETURN(const auto page, store->ListJourneys("", after, kPage));
     for (const JourneyRecord& record : page) {
       const auto map = store->LoadMap(record.name);
-      // Deleted meanwhile.
+      // The journey was deleted meanwhile.
       if (absl::IsNotFound(map.status())) continue;
       diagnosis.journeys.push_back({record.name, map.ok() ? map->step_count() : 0, map.status()});
     }
@@ -192,7 +192,7 @@ absl::StatusOr<Diagnosis> Salvage(const std::string& path, const std::string& to
   if (IsPostgresUrl(path)) {
     return absl::InvalidArgumentError("--salvage is for SQLite files; restore PostgreSQL's backup");
   }
-  // First, so that no file is created when nothing can be read.
+  // Read first, so that no file is created when nothing can be read.
   HOMING_RETURN_IF_ERROR(OpenForReading(path, kBusyTimeoutMs).status());
   HOMING_ASSIGN_OR_RETURN(const auto saved, MakeStore(to));
   Savers savers;

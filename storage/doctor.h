@@ -28,7 +28,7 @@ struct Diagnosis {
   std::vector<Finding> models;
 };
 
-// The number of damaged ones.
+// The number of damaged findings.
 int CountDamaged(const std::vector<Finding>& findings);
 bool IsWhole(const Diagnosis& diagnosis);
 

@@ -1,4 +1,4 @@
-// Whether the files that SQLite has open are still those of the path.
+// Checks that the files that SQLite has open are still those of the path.
 #ifndef STORAGE_FILE_IDENTITY_H_
 #define STORAGE_FILE_IDENTITY_H_
 
@@ -14,16 +14,16 @@
 
 namespace homing::storage {
 
-// The database and its log ("-wal"). SQLite writes on into a file that was removed or replaced, and
-// says nothing. Thread-safe.
+// The database and its log ("-wal"). SQLite keeps writing into a file that was removed or
+// replaced, without an error. Thread-safe.
 class FileIdentity {
  public:
-  // Takes the files of this moment for the right ones; the log, once there is one.
+  // Remembers the current files as the right ones; the log, once there is one.
   explicit FileIdentity(std::string path);
 
   // The log holds at least so many bytes that are not yet in the database.
   void SetLogBytes(std::int64_t bytes) { log_bytes_ = bytes; }
-  // Whether the log is shorter than that.
+  // True if the log is shorter than that.
   bool IsLogCut();
   // UNAVAILABLE, a fault of the store: a file was removed, replaced or cut.
   absl::Status Check();

@@ -1,7 +1,6 @@
 #include "storage/growing_journey.h"
 
 #include <algorithm>
-#include <cmath>
 #include <set>
 #include <utility>
 
@@ -13,46 +12,8 @@
 namespace homing::storage {
 namespace {
 
-// Two a camera (paper III).
-constexpr int kMaxFingerprintsPerSide = 2;
-constexpr double kMaxSpread = 1e9;
 // Steps whose landmarks are kept: more than the longest track gap.
 constexpr std::int64_t kStepsSeen = 24;
-
-absl::Status CheckValues(const RecordedFingerprint& recorded) {
-  const Fingerprint& fingerprint = recorded.fingerprint;
-  if (!std::isfinite(fingerprint.x) || !std::isfinite(fingerprint.y)) {
-    return MustBe(absl::StrCat("mean of landmark ", fingerprint.landmark),
-                  absl::StrCat("(", fingerprint.x, ", ", fingerprint.y, ")"), "finite");
-  }
-  if (!(recorded.spread >= 0 && recorded.spread <= kMaxSpread)) {
-    return MustBe(absl::StrCat("spread of landmark ", fingerprint.landmark), recorded.spread,
-                  absl::StrCat("in [0, ", kMaxSpread, "]"));
-  }
-  if (fingerprint.count <= 0) {
-    return MustBe(absl::StrCat("count of landmark ", fingerprint.landmark), fingerprint.count,
-                  "at least 1");
-  }
-  return absl::OkStatus();
-}
-
-// Checks the order: left before right, at most two on a side.
-absl::Status CheckOrder(const JourneyStep& step) {
-  int left = 0;
-  int right = 0;
-  for (const RecordedFingerprint& recorded : step.fingerprints) {
-    const bool is_left = recorded.side == Side::kLeft;
-    if (is_left && right > 0) {
-      return FieldError("fingerprints",
-                        absl::StrCat("of step ", step.step, " must have left before right"));
-    }
-    if (++(is_left ? left : right) > kMaxFingerprintsPerSide) {
-      return FieldError("fingerprints", absl::StrCat("of step ", step.step, " must be at most ",
-                                                     kMaxFingerprintsPerSide, " on one side"));
-    }
-  }
-  return absl::OkStatus();
-}
 
 absl::Status CheckContinues(const GrowingJourney& journey, const JourneyAppend& append) {
   if (journey.state != JourneyState::kActive) {
@@ -117,14 +78,10 @@ absl::Status CheckStep(GrowingJourney& journey, const JourneyStep& step, std::in
     return MustBe("step", step.step, absl::StrCat("in [", journey.step_count, ", ", last, "]"));
   }
   const std::int64_t least = journey.last_sequence + 1 + step.step - journey.step_count;
-  if (step.sequence != kNextSequence && step.sequence < least) {
-    return absl::InvalidArgumentError(absl::StrCat("sequence of step ", step.step, " is ",
-                                                   step.sequence, ": must be at least ", least));
-  }
-  HOMING_RETURN_IF_ERROR(CheckOrder(step));
+  HOMING_RETURN_IF_ERROR(CheckStepSequence(step, least));
+  HOMING_RETURN_IF_ERROR(CheckFingerprints(step));
   std::set<std::int32_t> seen;
   for (const RecordedFingerprint& recorded : step.fingerprints) {
-    HOMING_RETURN_IF_ERROR(CheckValues(recorded));
     HOMING_RETURN_IF_ERROR(CheckLandmark(journey, recorded, find, seen));
   }
   return absl::OkStatus();

@@ -50,7 +50,7 @@ using SideFinder =
 // INVALID_ARGUMENT (the step does not continue the journey), DATA_LOSS.
 absl::Status Grow(GrowingJourney& journey, const JourneyAppend& append, const SideFinder& find);
 
-// Its row has been written.
+// Call it after the journey's row was written.
 void MarkWritten(GrowingJourney& journey);
 
 }  // namespace homing::storage

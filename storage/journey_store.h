@@ -31,7 +31,8 @@ struct JourneyRecord {
   InputKind input = InputKind::kUnknown;
   // The first sequence that is not committed.
   std::int64_t next_sequence = 0;
-  // What a recording that continues must see first: for frames, the reference; else next_sequence.
+  // The first observation that a resumed recording needs: for frames the reference, else
+  // next_sequence.
   std::int64_t resend_from = 0;
   // Nanoseconds since the epoch; 0: not given. create: by the server's clock. start and end: by the
   // robot's clock, of the first and last step.
@@ -71,7 +72,7 @@ struct AcquiredJourney {
 // Shows whether a journey in memory is still as stored.
 struct JourneyMark {
   std::string name;
-  // Tells a journey from a later one of the same name.
+  // Distinguishes a journey from a later one of the same name.
   std::int64_t create_time_ns = 0;
   JourneyState state = JourneyState::kActive;
   std::int64_t next_sequence = 0;
@@ -137,7 +138,7 @@ class JourneyStore {
   virtual absl::StatusOr<JourneyMap> LoadMap(const std::string& name) = 0;
   // The record and the steps from `first` on, of one moment. NOT_FOUND, DATA_LOSS.
   virtual absl::StatusOr<JourneyGrowth> LoadSteps(const std::string& name, std::int64_t first) = 0;
-  // Of those journeys that exist.
+  // The marks of the given journeys that exist.
   virtual absl::StatusOr<std::vector<JourneyMark>> LoadMarks(
       const std::vector<std::string>& names) = 0;
   // State needed to resume recording; O(1) in journey length. NOT_FOUND, DATA_LOSS.
@@ -182,9 +183,9 @@ struct StoreOptions {
   bool read_only = false;
 };
 
-// INVALID_ARGUMENT (URL), FAILED_PRECONDITION (PostgreSQL: commits are not synchronous),
-// FAILED_PRECONDITION (schema newer than this program; read-only: also an
-// older one, or a log that is not yet in the file), DATA_LOSS, UNAVAILABLE (in use).
+// INVALID_ARGUMENT (URL); UNAVAILABLE (in use); DATA_LOSS; FAILED_PRECONDITION: the schema is newer
+// than this program; PostgreSQL: commits are not synchronous; read-only: also an older schema, or a
+// log that is not yet in the file.
 absl::StatusOr<std::unique_ptr<JourneyStore>> OpenJourneyStore(const StoreOptions& options);
 
 }  // namespace homing::storage

@@ -16,12 +16,12 @@
 namespace homing::storage {
 namespace {
 
-// Of SQLite's log: its header, and what each page has before it.
+// Bytes of the header of SQLite's log, and of the header of each page in it.
 constexpr std::int64_t kLogHeaderBytes = 32;
 constexpr std::int64_t kLogFrameBytes = 24;
 // As journal_size_limit: a longer log is cut by SQLite itself.
 constexpr std::int64_t kLogKeptBytes = 67'108'864;
-// Between two checks of a damaged file, at least.
+// Least time between two checks of a damaged file.
 constexpr std::chrono::seconds kCheckEvery{10};
 
 }  // namespace
@@ -55,7 +55,7 @@ absl::Status SqliteJourneyStore::Transact(const Body& body) {
   NoteHealth(status, writer.changes() != changes);
   if (!status.ok() || files_ == nullptr) return status;
   NoteLogPages(checkpointer_->pages_in_log());
-  // What was written into a file that was taken away is not stored.
+  // A write into a file that was removed or replaced is not stored.
   status = CheckFiles();
   if (!status.ok()) appends_.Forget();
   return status;

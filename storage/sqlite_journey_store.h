@@ -86,7 +86,7 @@ class SqliteJourneyStore final : public JourneyStore {
   // Bodies of Write and AppendSteps use it: they run with write_mutex_ held.
   StepAppends appends_;
   Mutex health_mutex_;
-  // Has its own mutex, so that reading it never waits for a write.
+  // It has its own mutex, so that a reader never waits for a write.
   absl::Status write_health_ HOMING_GUARDED_BY(health_mutex_);
   std::chrono::steady_clock::time_point next_check_;
   std::unique_ptr<FileIdentity> files_;

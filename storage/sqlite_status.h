@@ -13,7 +13,7 @@ namespace homing::storage {
 // `code` is a primary or extended result code of SQLite other than SQLITE_OK.
 absl::Status StatusFromSqlite(int code, const std::string& message);
 absl::Status StatusFromException(const SQLite::Exception& exception);
-// A fault of the store that SQLite does not know of.
+// A fault of the store that SQLite did not report.
 absl::Status StoreFault(absl::StatusCode code, const std::string& message);
 // `status` was made here, and the store is at fault (full, unreadable, locked), not the request.
 bool IsStoreFault(const absl::Status& status);

@@ -26,11 +26,11 @@ class StepAppends {
   absl::Status Append(const JourneyAppend& append);
   // Writes the changed journeys' rows. Call it once a transaction, after the last append.
   void Write();
-  // Of the last acquisition; 0: none since the store was opened.
+  // The epoch of the last acquisition; 0: none since the store was opened.
   std::int64_t epoch(const std::string& name) const;
   // Returns a new epoch, larger than any before.
   std::int64_t Acquire(const std::string& name);
-  // The journey is deleted.
+  // Call it after a journey was deleted.
   void ForgetEpoch(const std::string& name) { epochs_.erase(name); }
   // Clears the kept rows: a transaction failed, or other code wrote.
   void Forget();

@@ -24,7 +24,7 @@ Query SelectSteps(Connection& connection, std::int64_t journey_id, std::int64_t 
 // INVALID_ARGUMENT: a flow profile of another form.
 absl::StatusOr<JourneyStep> ReadStep(Query& row);
 
-// The side of a landmark, searched from the last step backwards; none: no step holds it. It mostly
+// The side of a landmark, searched from the last step backwards; none: no step holds it. It usually
 // reads few rows.
 std::optional<Side> FindSide(Connection& connection, std::int64_t journey_id,
                              std::int32_t landmark);

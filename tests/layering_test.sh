@@ -1,11 +1,12 @@
 #!/bin/sh
-# Dependencies between folders, forbidden contents, and the length of files. Debian keeps the headers of
-# gRPC, SQLite and OpenCV in /usr/include, so that a wrong include compiles: this test forbids it.
+# Dependencies between folders, forbidden contents, the length of files, the sources in a folder. Debian keeps the
+# headers of gRPC, SQLite and OpenCV in /usr/include, so that a wrong include compiles: this test forbids it.
 #   layering_test.sh [ROOT]        checks the tree
 #   layering_test.sh --self-test   plants one violation of each rule in a scratch tree and expects it to be found
 set -u
 
 max_lines=300
+max_sources=25
 
 # The includes allowed to one folder's files, without its subfolders: "FOLDER ALLOWED...". An allowed name that ends in a slash is
 # the beginning of an include, another one a folder without its subfolders. Each folder has a rule.
@@ -47,16 +48,17 @@ client/file         client/file
 client/pilot        client/pilot
 client/drive        client/drive client/pilot client/simulator homing/flow homing/image homing/base
 client/picture      client/picture client/file $below_journey homing/
-client/opencv       client/opencv client homing/image homing/base
-client/bag          client/bag client homing/flow homing/image homing/base
-client              client cli client/pilot client/bag client/file client/simulator client/command homing/ $messages google/rpc grpc/health/
-client/command      client/command cli client/drive client/pilot client/bag client/file client/picture client/simulator client server/process homing/ $messages
+client/source       client/source client/bag client/simulator homing/flow homing/image homing/base
+client/opencv       client/opencv client/source homing/image homing/base
+client/bag          client/bag client/source homing/flow homing/image homing/base
+client              client cli client/source client/pilot client/bag client/file client/simulator client/command homing/ $messages google/rpc grpc/health/
+client/command      client/command cli client/drive client/pilot client/bag client/file client/picture client/simulator client/source client server/process homing/ $messages
 client/robot        client/robot client homing/client homing/base homing/v1
 client/robot/include/homing/client homing/client
-client/bench        client/bench cli client/command client/simulator client server/process homing/ $messages
+client/bench        client/bench cli client/command client/simulator client/source client server/process homing/ $messages
 "
 # Folders where generated code, gRPC and Protobuf may not be seen.
-no_network='homing storage cli client/simulator server/base server/catalog server/access server/admission server/session
+no_network='homing storage cli client/simulator client/source server/base server/catalog server/access server/admission server/session
   server/process'
 
 fail() { echo "layering: $*"; failed=1; }
@@ -139,11 +141,17 @@ check_lengths() {
     FNR == most + 1 { print FILENAME " has more than " most " lines" }'
 }
 
+# Sources in one folder, without its subfolders.
+check_sizes() {
+  sources homing storage server proto cli client tests | sed -n 's|/[^/]*\.cc$||p' | sort | uniq -c |
+    awk -v most="$max_sources" '$1 > most { print $2 " has more than " most " sources" }'
+}
+
 check_tree() {
   cd "$1" || exit 2
   failed=0
   [ -n "$(sources homing)" ] || fail "no sources in $1"
-  found=$(check_directions; check_contents; check_names; check_lengths)
+  found=$(check_directions; check_contents; check_names; check_lengths; check_sizes)
   [ -z "$found" ] || { echo "$found" | sed 's/^/layering: /'; failed=1; }
   return $failed
 }
@@ -192,7 +200,7 @@ self_test() {
   plant server/a.cc '#include <libpq-fe.h>'
   plant storage/a.cc '#include <libpq-fe.h>'
   plant storage/a.cc '#include "storage/postgres/pg_connection.h"'
-  plant server/a.cc '#include "client/frame_source.h"'
+  plant server/a.cc '#include "client/source/frame_source.h"'
   plant server/base/a.h '#include "homing/journey/journey_map.h"'
   plant server/base/a.cc '#include "server/rpc/status_conversion.h"'
   plant server/process/a.h '#include "server/base/worker_pool.h"'
@@ -216,11 +224,14 @@ self_test() {
   plant client/command/a.cc '#include "client/bench/load_run.h"'
   plant client/command/a.cc '#include "server/base/worker_pool.h"'
   plant client/picture/a.cc '#include "client/connection.h"'
+  plant client/source/a.cc '#include "client/connection.h"'
   plant client/simulator/a.cc '#include "homing/journey/journey_map.h"'
   plant proto/wire/a.cc '#include "server/service/journey_archive.h"'
   plant cli/a.cc '#include "client/connection.h"'
   plant homing/flow/string_util.cc 'int x;'
   plant tests/a.cc "$(yes 'int x;\n' | head -400 | tr -d '\n')"
+  max_sources=0
+  plant homing/flow/a.cc 'int x;'
   [ $planted_bad = 0 ] && echo "self-test: every planted violation is found"
   return $planted_bad
 }

@@ -15,7 +15,7 @@ enum class Wire { kOther, kRos1, kCdr, kProtobuf };
 
 enum class Content { kOther, kRawImage, kCompressedImage, kCameraInfo };
 
-// Where a message lies; the format's own words.
+// The place of a message in the file, in the terms of its format.
 struct MessagePlace {
   // Nanoseconds; when it was recorded.
   std::int64_t time_ns = 0;
@@ -46,7 +46,7 @@ class Bag {
   virtual ~Bag() = default;
   // In the order of their names.
   const std::vector<BagTopic>& topics() const { return topics_; }
-  // One line that says what of the file cannot be read; empty: nothing.
+  // One line that describes the unreadable part of the file; empty: all was read.
   const std::string& damage() const { return damage_; }
   // A message of topics(). DATA_LOSS: damaged.
   virtual absl::StatusOr<std::string> Read(const MessagePlace& place) = 0;
@@ -65,7 +65,7 @@ class Bag {
   std::string damage_;
 };
 
-// What a topic of this type holds, by the names of ROS 1, ROS 2 and Foxglove.
+// The content of a topic of this type, by the names of ROS 1, ROS 2 and Foxglove.
 Content ContentOf(const std::string& type, Wire wire);
 
 // An MCAP file, a ROS 1 bag or a database of rosbag2, by its first bytes. A file that ends too

@@ -8,7 +8,7 @@
 
 #include "absl/status/statusor.h"
 #include "client/bag/bag.h"
-#include "client/frame_source.h"
+#include "client/source/frame_source.h"
 
 namespace homing::client::bag {
 

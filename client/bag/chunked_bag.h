@@ -22,9 +22,9 @@ class ChunkedBag : public Bag {
  protected:
   ChunkedBag(BagFile file, const BagLimits& limits) : file_(std::move(file)), limits_(limits) {}
 
-  // The format's part. What a chunk holds, decompressed.
+  // Implemented by the format. The decompressed content of a chunk.
   virtual absl::StatusOr<std::string> LoadChunk(std::uint64_t offset) = 0;
-  // Takes in the channels of a chunk's records, and its messages if `messages` is set.
+  // Adds the channels of a chunk's records, and its messages if `messages` is set.
   virtual absl::Status ScanChunk(std::string_view records, std::uint64_t chunk, bool messages) = 0;
 
   // A message of an unknown or an uninteresting channel is left out.

@@ -8,8 +8,8 @@
 
 #include "absl/status/statusor.h"
 #include "client/bag/bag.h"
-#include "client/camera_info.h"
-#include "client/frame_source.h"
+#include "client/bag/camera_info.h"
+#include "client/source/frame_source.h"
 
 namespace homing::client::bag {
 

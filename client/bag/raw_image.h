@@ -1,5 +1,5 @@
-// Pixels as robots record them, to those that the server takes. Source: the encodings' names in
-// sensor_msgs.
+// Converts pixels as robots record them to encodings that the server accepts. Source: the names of
+// encodings in sensor_msgs.
 #ifndef CLIENT_BAG_RAW_IMAGE_H_
 #define CLIENT_BAG_RAW_IMAGE_H_
 
@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "absl/status/statusor.h"
-#include "client/frame_source.h"
+#include "client/source/frame_source.h"
 
 namespace homing::client::bag {
 

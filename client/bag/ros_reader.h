@@ -12,7 +12,8 @@
 
 namespace homing::client::bag {
 
-// As ByteReader: what lies beyond the end is 0 or empty, ok() says so. Does not own the bytes.
+// As ByteReader: a read beyond the end gives 0 or empty, and ok() is then false. Does not own the
+// bytes.
 class RosReader {
  public:
   RosReader(Wire wire, std::string_view bytes)

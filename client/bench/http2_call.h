@@ -1,5 +1,5 @@
-// One bidirectional gRPC call on its own connection, without gRPC's client, whose processor time
-// would be missing for the server: a load has a thousand of these. Source: RFC 9113 by nghttp2;
+// One bidirectional gRPC call on its own connection. A load has a thousand of these: gRPC's client
+// would take the processor time that the server needs. Source: RFC 9113 by nghttp2;
 // gRPC over HTTP/2.
 #ifndef CLIENT_BENCH_HTTP2_CALL_H_
 #define CLIENT_BENCH_HTTP2_CALL_H_

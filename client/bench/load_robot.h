@@ -14,7 +14,7 @@
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
 #include "client/bench/http2_call.h"
-#include "client/bench/latency_histogram.h"
+#include "client/bench/latencies.h"
 #include "homing/v1/homing_service.pb.h"
 #include "homing/v1/journey_service.pb.h"
 
@@ -28,7 +28,7 @@ struct LoadCounts {
   std::int64_t answered = 0;
   // Sent more than 10 ms late: the client or the link could not keep up.
   std::int64_t late = 0;
-  LatencyHistogram latency;
+  Latencies latency;
   absl::Status status;
 };
 

@@ -3,8 +3,8 @@
 #include <utility>
 
 #include "client/bench/projected_drive.h"
-#include "client/frame_source.h"
 #include "client/simulator/seeded_random.h"
+#include "client/source/frame_source.h"
 #include "homing/base/status_macros.h"
 #include "proto/wire/observation_conversion.h"
 

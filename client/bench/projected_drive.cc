@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "client/simulator/seeded_random.h"
 
@@ -46,11 +45,6 @@ std::vector<Mark> PatternOf(int pattern) {
     marks.push_back({random.Uniform(0, kPatternWidthM), random.Uniform(-1.4, 4.0)});
   }
   return marks;
-}
-
-double Gaussian(SeededRandom& random) {
-  const double radius = std::sqrt(-2 * std::log(1 - random.Uniform(0, 1)));
-  return radius * std::cos(2 * std::numbers::pi * random.Uniform(0, 1));
 }
 
 bool Inside(double x, double y) { return x >= 0 && x < kWidth - 1 && y >= 0 && y < kHeight - 1; }
@@ -145,7 +139,7 @@ FlowField ProjectedDrive::Field(std::size_t side, std::int64_t instant) const {
     if (cell) continue;
     cell = true;
     const auto noisy = [&](double value) {
-      return static_cast<float>(value + options_.noise_px * Gaussian(random));
+      return static_cast<float>(value + options_.noise_px * random.Gaussian());
     };
     field.vectors.push_back({noisy(start), noisy(y), noisy(end), noisy(y)});
   }

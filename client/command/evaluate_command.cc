@@ -21,7 +21,6 @@ struct EvaluateFlags {
   std::string truth_out;
   std::string truth_home;
   std::string out;
-  std::string send = "frames";
   double after_m = 10;
   double within_m = 2;
   double require = 0;
@@ -168,10 +167,6 @@ void AddEvaluateCommand(CLI::App& app, Session& session) {
       command.add_option("--truth-home", flags->truth_home, "truth.csv of the drive home");
   outbound->needs(home);
   home->needs(outbound);
-  command
-      .add_option("--send", flags->send, "What localize sent; not needed, lines name their frame")
-      ->check(CLI::IsMember({"frames", "flow"}))
-      ->capture_default_str();
   command.add_option("--after", flags->after_m, "Metres of the way home that do not count")
       ->capture_default_str();
   command.add_option("--within", flags->within_m, "Largest error that is right, metres")

@@ -10,8 +10,8 @@
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_split.h"
 #include "client/calibration_file.h"
-#include "client/frame_source.h"
-#include "client/view_window.h"
+#include "client/source/frame_source.h"
+#include "client/source/view_window.h"
 #include "homing/base/field_error.h"
 #include "homing/base/status_macros.h"
 #include "proto/wire/settings_conversion.h"
@@ -52,14 +52,9 @@ void AddFrameChoice(CLI::App& command, FrameChoice& frames) {
       .add_option("--seconds", frames.seconds,
                   "End after so many seconds of the source [at its end]")
       ->check(CLI::Range(1e-3, 1e9));
-  CLI::Option* strict = command.add_flag(
-      "--strict", frames.strict,
-      "End at a bad frame, and refuse frames of one camera that have no partner of the other");
-  command
-      .add_flag_function(
-          "--skip-bad-frames", [&frames](std::int64_t) { frames.strict = false; },
-          "Skip and report them (empty, damaged, of another size): this is the default")
-      ->excludes(strict);
+  command.add_flag("--strict", frames.strict,
+                   "End at a bad frame (empty, damaged, of another size) instead of skipping and "
+                   "reporting it, and refuse frames of one camera without a partner of the other");
 }
 
 }  // namespace

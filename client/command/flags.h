@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "absl/status/statusor.h"
-#include "client/camera_instants.h"
 #include "client/camera_observations.h"
 #include "client/connection.h"
 #include "client/journey_client.h"
+#include "client/source/camera_instants.h"
 #include "homing/flow/flow_tracker.h"
 #include "homing/v1/homing_service.pb.h"
 #include "homing/v1/types.pb.h"

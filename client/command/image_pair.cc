@@ -4,7 +4,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_split.h"
-#include "client/image_folder.h"
+#include "client/source/image_folder.h"
 #include "homing/base/status_macros.h"
 
 namespace homing::client {

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "absl/status/statusor.h"
-#include "client/frame_source.h"
+#include "client/source/frame_source.h"
 
 namespace homing::client {
 

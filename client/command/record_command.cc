@@ -9,7 +9,7 @@
 #include "client/journey_client.h"
 #include "client/map_quality.h"
 #include "client/recording_client.h"
-#include "client/source_mark.h"
+#include "client/source/source_mark.h"
 #include "homing/base/range_check.h"
 #include "homing/base/status_macros.h"
 #include "proto/wire/settings_conversion.h"

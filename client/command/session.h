@@ -10,8 +10,8 @@
 
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
-#include "client/camera_instants.h"
 #include "client/connection.h"
+#include "client/source/camera_instants.h"
 
 namespace homing::client {
 

@@ -1,4 +1,4 @@
-#include "client/opencv_readers.h"
+#include "client/source/opencv_readers.h"
 
 #include <opencv2/imgcodecs.hpp>
 

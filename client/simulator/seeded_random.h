@@ -3,7 +3,9 @@
 #ifndef CLIENT_SIMULATOR_SEEDED_RANDOM_H_
 #define CLIENT_SIMULATOR_SEEDED_RANDOM_H_
 
+#include <cmath>
 #include <cstdint>
+#include <numbers>
 
 namespace homing::client {
 
@@ -30,6 +32,11 @@ class SeededRandom {
   double Uniform(double low, double high) { return low + (high - low) * ToUnit(Bits()); }
   int Below(int limit) { return static_cast<int>(Uniform(0, limit)); }
   bool Chance(double probability) { return ToUnit(Bits()) < probability; }
+  // Standard normal (Box and Muller 1958).
+  double Gaussian() {
+    const double radius = std::sqrt(-2 * std::log(1 - Uniform(0, 1)));
+    return radius * std::cos(2 * std::numbers::pi * Uniform(0, 1));
+  }
 
  private:
   std::uint64_t key_;

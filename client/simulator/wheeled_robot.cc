@@ -10,11 +10,6 @@ namespace {
 // The two waves of a wheel's slip, s.
 constexpr std::array<std::array<double, 2>, 2> kSlipPeriodS = {{{7.3, 3.1}, {8.9, 2.7}}};
 
-double Gaussian(SeededRandom& random) {
-  const double radius = std::sqrt(-2 * std::log(1 - random.Uniform(0, 1)));
-  return radius * std::cos(kTurn * random.Uniform(0, 1));
-}
-
 }  // namespace
 
 WheeledRobot::WheeledRobot(const WheeledRobotOptions& options, const Pose& start)
@@ -44,8 +39,8 @@ void WheeledRobot::Tick(const Command& command) {
   motion_.turn_rate += share * (command.turn_rate - motion_.turn_rate);
   const auto noise_number = static_cast<std::uint64_t>(time_s() * WheeledRobotOptions::kNoiseHz);
   SeededRandom random(Mix(options_.seed, 92, noise_number));
-  const double speed = motion_.speed_mps * (1 + options_.noise * Gaussian(random));
-  const double turn_rate = motion_.turn_rate * (1 + options_.noise * Gaussian(random));
+  const double speed = motion_.speed_mps * (1 + options_.noise * random.Gaussian());
+  const double turn_rate = motion_.turn_rate * (1 + options_.noise * random.Gaussian());
   const double half_track_m = 0.5 * options_.track_m;
   const double left = (speed - half_track_m * turn_rate) * (1 - SlipOf(0));
   const double right = (speed + half_track_m * turn_rate) * (1 - SlipOf(1));

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "absl/strings/str_cat.h"
+#include "homing/base/range_check.h"
 #include "homing/base/status_macros.h"
 #include "homing/flow/undistortion.h"
 
@@ -17,34 +18,25 @@ namespace {
 constexpr int kMaxSidePx = 65536;
 constexpr double kMaxLengthPx = 1e6;
 constexpr double kMaxDistortion = 100;
-// Rays nearer than this to the plane of the ideal camera are out of its sight.
+// The ideal camera does not see rays with a depth below this.
 constexpr double kMinDepth = 1e-3;
 
-absl::Status CheckBetween(const std::string& field, double value, double low, double high) {
-  if (value > low && value < high) {
-    return absl::OkStatus();
-  }
-  return absl::InvalidArgumentError(
-      absl::StrCat("camera.", field, " ", value, " is outside (", low, ", ", high, ")"));
-}
-
 absl::Status CheckSize(const Camera& camera) {
-  HOMING_RETURN_IF_ERROR(CheckBetween("width", camera.width, -1, kMaxSidePx + 1));
-  HOMING_RETURN_IF_ERROR(CheckBetween("height", camera.height, -1, kMaxSidePx + 1));
+  HOMING_RETURN_IF_ERROR(CheckRange("width", camera.width, 0, kMaxSidePx, "px"));
+  HOMING_RETURN_IF_ERROR(CheckRange("height", camera.height, 0, kMaxSidePx, "px"));
   if ((camera.width == 0) != (camera.height == 0)) {
-    return absl::InvalidArgumentError(absl::StrCat("camera.width ", camera.width,
-                                                   " and camera.height ", camera.height,
-                                                   " must both be given or both be 0"));
+    return MustBe("width", absl::StrCat(camera.width, " x ", camera.height),
+                  "both sides, or 0 x 0 px");
   }
   return absl::OkStatus();
 }
 
 absl::Status CheckIntrinsics(const Intrinsics& intrinsics) {
-  HOMING_RETURN_IF_ERROR(CheckBetween("focal_x", intrinsics.focal_x, 0, kMaxLengthPx));
-  HOMING_RETURN_IF_ERROR(CheckBetween("focal_y", intrinsics.focal_y, 0, kMaxLengthPx));
+  HOMING_RETURN_IF_ERROR(CheckAbove("focal_x", intrinsics.focal_x, 0.0, kMaxLengthPx, "px"));
+  HOMING_RETURN_IF_ERROR(CheckAbove("focal_y", intrinsics.focal_y, 0.0, kMaxLengthPx, "px"));
   HOMING_RETURN_IF_ERROR(
-      CheckBetween("center_x", intrinsics.center_x, -kMaxLengthPx, kMaxLengthPx));
-  return CheckBetween("center_y", intrinsics.center_y, -kMaxLengthPx, kMaxLengthPx);
+      CheckRange("center_x", intrinsics.center_x, -kMaxLengthPx, kMaxLengthPx, "px"));
+  return CheckRange("center_y", intrinsics.center_y, -kMaxLengthPx, kMaxLengthPx, "px");
 }
 
 bool IsDistorted(const Camera& camera) {
@@ -52,7 +44,7 @@ bool IsDistorted(const Camera& camera) {
                                        [](double k) { return k != 0; });
 }
 
-// A point of the raw image in the ideal camera's image; nothing where that cannot see it.
+// The point of the ideal camera's image for a point of the raw image; nothing if it cannot see it.
 std::optional<Eigen::Vector2d> IdealPoint(const Camera& camera, double x, double y) {
   const Intrinsics& in = *camera.intrinsics;
   const Eigen::Vector2d distorted((x - in.center_x) / in.focal_x, (y - in.center_y) / in.focal_y);
@@ -97,17 +89,17 @@ std::optional<FlowVector> IdealVector(const FlowVector& raw, const FlowField& fi
 absl::Status Validate(const Camera& camera) {
   HOMING_RETURN_IF_ERROR(CheckSize(camera));
   constexpr double kQuarterTurn = std::numbers::pi / 2;
-  HOMING_RETURN_IF_ERROR(CheckBetween("yaw_rad", camera.yaw_rad, -kQuarterTurn, kQuarterTurn));
+  if (!(std::abs(camera.yaw_rad) < kQuarterTurn)) {
+    return MustBe("yaw_rad", camera.yaw_rad, "in (-pi/2, pi/2) rad");
+  }
   for (const double k : camera.distortion) {
-    HOMING_RETURN_IF_ERROR(CheckBetween("distortion", k, -kMaxDistortion, kMaxDistortion));
+    HOMING_RETURN_IF_ERROR(CheckRange("distortion", k, -kMaxDistortion, kMaxDistortion));
   }
   if (camera.intrinsics.has_value()) {
     return CheckIntrinsics(*camera.intrinsics);
   }
   if (IsDistorted(camera) || camera.yaw_rad != 0) {
-    return absl::InvalidArgumentError(
-        absl::StrCat("camera.distortion and camera.yaw_rad ", camera.yaw_rad,
-                     " need camera.focal_x, focal_y, center_x and center_y"));
+    return FieldError("focal_x", "must be given for a camera with distortion or yaw_rad");
   }
   return absl::OkStatus();
 }

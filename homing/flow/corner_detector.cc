@@ -11,7 +11,8 @@ namespace {
 // Gradients next to the border come from mirrored pixels.
 constexpr int kBorderPx = 3;
 
-// The strongest local maximum in a cell, the first of equal ones. `strongest`: near each pixel.
+// The strongest local maximum of a cell; of equal ones the first. `strongest` holds the maximum of
+// each pixel's neighbourhood.
 std::optional<cv::Point> BestIn(const cv::Rect& cell, const cv::Mat& strength,
                                 const cv::Mat& strongest, float threshold) {
   std::optional<cv::Point> best;

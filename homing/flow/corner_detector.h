@@ -11,7 +11,7 @@
 
 namespace homing {
 
-// Images of one step to the next, kept for the next frame of the same size.
+// Intermediate images, reused for the next frame of the same size.
 struct CornerBuffers {
   cv::Mat strength;
   cv::Mat strongest;

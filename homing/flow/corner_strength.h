@@ -1,5 +1,5 @@
-// How much of a corner each pixel is: the smaller eigenvalue of eq 3's matrix. Source: paper II-B,
-// eqs 3 to 5. Only what the next row needs is kept between rows.
+// Minimum-eigenvalue response of each pixel: the smaller eigenvalue of eq 3's matrix. Source: paper
+// II-B, eqs 3 to 5. Only five rows are kept in memory.
 #ifndef HOMING_FLOW_CORNER_STRENGTH_H_
 #define HOMING_FLOW_CORNER_STRENGTH_H_
 
@@ -13,7 +13,7 @@ inline constexpr int kCornerBlockPx = 5;
 // Strength of an image whose gradient matrix, averaged over the window, has this smaller eigenvalue
 // (squared units of the image over px^2).
 constexpr float StrengthOf(double eigenvalue) {
-  // Neither the 8 of the gradient's kernel nor the window's area is divided by.
+  // CornerStrength leaves out the divisions by the kernel's 8 and by the window's area.
   return static_cast<float>(eigenvalue * 8 * 8 * kCornerBlockPx * kCornerBlockPx);
 }
 

@@ -12,7 +12,7 @@
 
 namespace homing {
 
-// All that is kept of a frame: the pyramid of eq 1's images, with gradients, and its corners.
+// The data kept of a frame: the pyramid of eq 1's images, with gradients, and its corners.
 struct TrackedFrame {
   cv::Size source_size;
   WorkingScale scale;
@@ -20,7 +20,7 @@ struct TrackedFrame {
   std::vector<cv::Point2f> corners;
 };
 
-// What a frame needs besides, kept from one to the next.
+// Working memory, reused from frame to frame.
 struct FlowBuffers {
   WorkingBuffers working;
   CornerBuffers corners;

@@ -13,14 +13,15 @@
 
 namespace homing {
 
-// Change what is stored: they are kept with the journey. Lengths are pixels of the working image
-// unless named source. Defaults chosen by measurement.
+// These options change the stored fingerprints, so they are stored with the journey. Lengths are
+// pixels of the working image unless named source. The defaults were measured.
 struct FlowOptions {
   // Images are resized to this width before anything else (never more than doubled), so that all
-  // other lengths follow the image's size. 0: as they come. [0, 2048].
+  // other lengths follow the image's size. 0: not resized. 0 or
+  // [16, 2048].
   int working_width_px = 320;
-  // Gaussian smoothing, sigma; in SOURCE pixels where the image is enlarged, since noise grows with
-  // it: in noise, corners and tracks drown. 0: none. [0, 8].
+  // Gaussian smoothing, sigma; in SOURCE pixels where the image is enlarged, because
+  // enlarging spreads the noise too. 0: none. [0, 8].
   double smoothing_sigma_px = 1.0;
   // Side of the square of local mean and deviation. [3, 255], odd.
   int normalization_window_px = 45;

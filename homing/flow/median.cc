@@ -12,7 +12,7 @@
 namespace homing {
 namespace {
 
-// Integers in the order of the numbers.
+// Maps floats to integers of the same order.
 HOMING_VECTOR_CLONES
 void RankKeys(const float* values, std::size_t size, std::int32_t* keys) {
   for (std::size_t i = 0; i < size; ++i) {
@@ -43,7 +43,7 @@ void FindBounds(const std::int32_t* keys, std::size_t size, std::int32_t* least,
   *most = high;
 }
 
-// REQUIRES: one is.
+// The greatest key up to `most`. REQUIRES: there is one.
 HOMING_VECTOR_CLONES
 std::int32_t GreatestUpTo(const std::int32_t* keys, std::size_t size, std::int32_t most) {
   constexpr std::int32_t kLeast = std::numeric_limits<std::int32_t>::min();
@@ -54,8 +54,8 @@ std::int32_t GreatestUpTo(const std::int32_t* keys, std::size_t size, std::int32
   return greatest;
 }
 
-// Of the keys the least that has more than half of them at or under it, by bisection: until one
-// side of the middle has just those.
+// The least key with more than half of all keys at or below it, by bisection. Stops early when
+// exactly one more than half of the keys are at or below the middle.
 std::int32_t MedianOf(std::span<const std::int32_t> keys) {
   const auto half = static_cast<std::int32_t>(keys.size() / 2);
   std::int32_t low = 0;
@@ -76,10 +76,10 @@ std::int32_t MedianOf(std::span<const std::int32_t> keys) {
   return low;
 }
 
-// Of so many no memory is asked for.
+// Up to this many keys need no memory from the heap.
 constexpr std::size_t kUsual = 1024;
 
-// Sixteen lanes of 16 bits: no count of so many outgrows them.
+// So few values that a 16-bit counter cannot overflow.
 constexpr std::size_t kCounted = 32768;
 
 HOMING_VECTOR_CLONES
@@ -111,7 +111,7 @@ float Median(std::span<const float> values) {
   return std::bit_cast<float>(key ^ ((key >> 31) & std::numeric_limits<std::int32_t>::max()));
 }
 
-// The greatest value that at most half of them are below, bit by bit.
+// Builds, from the highest bit down, the greatest value with at most half of the values below it.
 std::uint16_t Median(std::span<const std::uint16_t> values) {
   unsigned median = 0;
   for (unsigned bit = 1U << 15U; bit > 0 && !values.empty(); bit >>= 1U) {

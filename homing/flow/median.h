@@ -7,8 +7,9 @@
 
 namespace homing {
 
-// The upper one of two middle values; 0 of none. No value is NaN. Costs the same whatever the
-// order of the values: a selection that swaps them waits for its branches, ten times as long.
+// The upper one of two middle values; 0 if there are none. REQUIRES: no value is NaN. Branch-free:
+// the run time does not depend on the order of the values. A selection that swaps values takes ten
+// times as long, because its branches are mispredicted.
 float Median(std::span<const float> values);
 std::uint16_t Median(std::span<const std::uint16_t> values);
 

@@ -8,12 +8,12 @@
 namespace homing {
 namespace {
 
-// What a turn on the spot must explain.
+// A rotation explains at least this fraction of the flow of a turn on the spot.
 constexpr double kMinExplained = 0.8;
 constexpr double kMaxResidualRatio = 0.25;
 // The two cameras' pans, and one camera's pan and vertical pan, agree within this factor.
 constexpr double kMaxPanRatio = 2;
-// Standard errors that tell a vertical pan from none.
+// A vertical pan is significant from this many standard errors on.
 constexpr double kMinSignificance = 4;
 
 bool IsExplained(const RotationFit& fit) {
@@ -39,8 +39,8 @@ bool IsTurning(const RotationFit& left, const RotationFit& right) {
   return IsExplained(left) && IsExplained(right) && Agree(left.pan, right.pan);
 }
 
-// Whether the upper one of the middle lengths is at least `least`, without finding it: half of the
-// vectors, rounded up, are then as long.
+// True if the upper median of the lengths is at least `least`: then half of the vectors, rounded
+// up, are at least as long.
 bool MedianReaches(const FlowField& field, double least) {
   std::size_t long_enough = 0;
   for (const FlowVector& v : field.vectors) {

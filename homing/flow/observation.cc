@@ -20,12 +20,12 @@ absl::Status WithSide(const absl::Status& status, std::size_t side) {
   return Within(NameOf(side), status);
 }
 
-// Finite, and no further off the image than its own size.
+// True if finite and at most one image size outside the image.
 bool IsPlausible(float p, int side) {
   return (p >= -static_cast<float>(side)) & (p <= 2 * static_cast<float>(side));
 }
 
-// All vectors; without a branch for each.
+// Checks all vectors, without a branch a vector.
 HOMING_VECTOR_CLONES
 bool ArePlausible(const FlowField& field) {
   std::int32_t beyond = 0;
@@ -45,23 +45,21 @@ absl::Status CheckVector(const FlowField& field, std::size_t index) {
       IsPlausible(v.start_y, field.height) && IsPlausible(v.end_y, field.height)) {
     return absl::OkStatus();
   }
-  return absl::InvalidArgumentError(
-      absl::StrCat("flow_vectors[", index, "] (", v.start_x, ", ", v.start_y, ") to (", v.end_x,
-                   ", ", v.end_y, ") is not finite or over one image size outside the image of ",
-                   field.width, " x ", field.height, " px"));
+  return MustBe(
+      absl::StrCat("flow_vectors[", index, "]"),
+      absl::StrCat("(", v.start_x, ", ", v.start_y, ") to (", v.end_x, ", ", v.end_y, ")"),
+      absl::StrCat("finite and within one image size of the image of ", field.width, " x ",
+                   field.height, " px"));
 }
 
 absl::Status CheckField(const FlowField& field, const DecodeLimits& limits) {
-  for (const int side : {field.width, field.height}) {
-    if (side < limits.min_side_px || side > limits.max_side_px) {
-      return absl::InvalidArgumentError(absl::StrCat(
-          "flow_vectors of an image of ", field.width, " x ", field.height,
-          " px: sides must be in [", limits.min_side_px, ", ", limits.max_side_px, "] px"));
-    }
-  }
+  HOMING_RETURN_IF_ERROR(
+      CheckRange("flow_vectors.width", field.width, limits.min_side_px, limits.max_side_px, "px"));
+  HOMING_RETURN_IF_ERROR(CheckRange("flow_vectors.height", field.height, limits.min_side_px,
+                                    limits.max_side_px, "px"));
   if (field.vectors.size() > kMaxFlowVectors) {
-    return absl::InvalidArgumentError(absl::StrCat("flow_vectors has ", field.vectors.size(),
-                                                   " vectors, the limit is ", kMaxFlowVectors));
+    return MustBe("flow_vectors", field.vectors.size(),
+                  absl::StrCat("at most ", kMaxFlowVectors, " vectors"));
   }
   if (!ArePlausible(field)) {
     for (std::size_t i = 0; i < field.vectors.size(); ++i) {
@@ -76,9 +74,9 @@ absl::Status CheckSameSize(const cv::Size& size, const cv::Size& known) {
   if (known.area() == 0 || size == known) {
     return absl::OkStatus();
   }
-  return absl::InvalidArgumentError(absl::StrCat("image of ", size.width, " x ", size.height,
-                                                 " px, the camera's images before had ",
-                                                 known.width, " x ", known.height, " px"));
+  return absl::InvalidArgumentError(
+      absl::StrCat("image of ", size.width, " x ", size.height, " px must have the ", known.width,
+                   " x ", known.height, " px of the camera's earlier images"));
 }
 
 absl::Status CheckCameraSize(const cv::Size& size, const Camera& camera) {
@@ -86,11 +84,11 @@ absl::Status CheckCameraSize(const cv::Size& size, const Camera& camera) {
     return absl::OkStatus();
   }
   return absl::FailedPreconditionError(absl::StrCat("image of ", size.width, " x ", size.height,
-                                                    " px, the journey's camera has ", camera.width,
-                                                    " x ", camera.height, " px"));
+                                                    " px must have the ", camera.width, " x ",
+                                                    camera.height, " px of the journey's camera"));
 }
 
-// Flow vectors as they came. What spans a break is dropped.
+// Copies the flow vectors; drops those that span a break.
 ObservedFlow PassOn(const Observation& observation) {
   ObservedFlow flow;
   bool has_field = false;
@@ -141,7 +139,7 @@ absl::StatusOr<ObservedFlow> ObservationFlow::Compute(const Observation& observa
     HOMING_RETURN_IF_ERROR(WithSide(CheckCameraSize(checked[side].size, cameras[side]), side));
   }
   if (checked[0].size.area() == 0 && checked[1].size.area() == 0) {
-    return absl::InvalidArgumentError("observation has neither a left nor a right view");
+    return FieldError("left", "must be set unless right is");
   }
   // Nothing below fails.
   for (std::size_t side = 0; side < 2; ++side) {
@@ -152,7 +150,7 @@ absl::StatusOr<ObservedFlow> ObservationFlow::Compute(const Observation& observa
     return PassOn(observation);
   }
   HOMING_ASSIGN_OR_RETURN(ObservedFlow flow, TrackFrames(checked));
-  // Without corners in common nothing will ever be measured from this reference.
+  // Without common corners no flow can be measured from this reference any more: replace it.
   if (flow.makes_step || !HasMoved(flow.fields)) {
     Advance(checked);
     reference_sequence_ = observation.sequence;
@@ -177,7 +175,7 @@ void ObservationFlow::ForgetReference() {
 
 absl::StatusOr<ObservedFlow> ObservationFlow::TrackFrames(const CheckedViews& checked) {
   ObservedFlow flow;
-  // A camera had something to track, has something to track it to, and found next to none of it.
+  // Both frames of a camera have corners, but almost none could be tracked.
   bool lost = false;
   for (std::size_t side = 0; side < 2; ++side) {
     if (checked[side].gray.empty()) continue;

@@ -1,4 +1,4 @@
-// One instant of the robot as it comes in: frames or flow vectors of either camera or both.
+// One instant of the robot's input: frames or flow vectors of either camera or both.
 #ifndef HOMING_FLOW_OBSERVATION_H_
 #define HOMING_FLOW_OBSERVATION_H_
 
@@ -18,7 +18,7 @@ namespace homing {
 // A camera of the robot, or a side of the route as the outbound robot met it.
 enum class Side { kLeft = 0, kRight = 1 };
 
-// What one camera gave: nothing, a frame, or the flow from an earlier frame to this one.
+// The input of one camera: nothing, a frame, or the flow from an earlier frame to this one.
 using CameraView = std::variant<std::monostate, Frame, FlowField>;
 
 struct Observation {
@@ -46,10 +46,10 @@ struct ObservedFlow {
 // Most vectors of one camera at one instant.
 inline constexpr std::size_t kMaxFlowVectors = 100'000;
 
-// Observations of one stream to raw flow: decodes and tracks frames, passes flow vectors on. Used
-// by the server and on the robot alike. Both cameras share one reference: the observation that made
-// the last step. Each frame is tracked from its camera's reference frame, so that slow robots, fast
-// cameras and repeated frames make the steps that others make. Not thread-safe.
+// Turns the observations of one stream into raw flow: decodes and tracks frames, passes flow
+// vectors on. The server and the robot use the same code. Both cameras share one reference: the
+// observation that made the last step. Each frame is tracked from its camera's reference frame, so
+// that slow robots, fast cameras and repeated frames make the same steps. Not thread-safe.
 class ObservationFlow {
  public:
   // REQUIRES: Validate(options).ok().
@@ -59,19 +59,18 @@ class ObservationFlow {
   // image size outside its image, over kMaxFlowVectors, no camera at all. After an error the state
   // is as before the call. A camera that is absent at a step gives no flow until the next step.
   absl::StatusOr<ObservedFlow> Compute(const Observation& observation);
-  // The same for views that must have their camera's size where that is known. Besides:
-  // FAILED_PRECONDITION where they have not.
+  // As above. Also FAILED_PRECONDITION if a view differs from the known size of its camera.
   absl::StatusOr<ObservedFlow> Compute(const Observation& observation,
                                        const std::array<Camera, 2>& cameras);
 
-  // Gives cameras of unknown size that of their images so far.
+  // Sets the size of cameras without one, from their images so far.
   void FillSizes(std::array<Camera, 2>& cameras) const;
 
   // The observation whose frames are the reference; 0 before the first frame.
   std::int64_t reference_sequence() const { return reference_sequence_; }
 
  private:
-  // A view that nothing is wrong with. Empty `gray` unless it was a frame; 0 x 0 if absent.
+  // A valid view. Empty `gray` unless it was a frame; 0 x 0 if absent.
   struct CheckedView {
     cv::Mat gray;
     cv::Size size;
@@ -85,9 +84,9 @@ class ObservationFlow {
 
   FlowOptions options_;
   DecodeLimits limits_;
-  // Made for a camera's first frame: many robots send flow vectors alone.
+  // Created at a camera's first frame: many robots send flow vectors only.
   std::array<std::optional<FlowTracker>, 2> trackers_;
-  // Of the cameras' images so far; 0 x 0: none yet.
+  // Size of each camera's images so far; 0 x 0: no image yet.
   std::array<cv::Size, 2> sizes_;
   std::int64_t reference_sequence_ = 0;
 };

@@ -18,14 +18,15 @@ namespace homing {
 namespace {
 
 constexpr int kMaxIterations = 10;
-// A step this small, pixels, is the last.
+// The iteration ends at a change this small, pixels.
 constexpr double kConvergedPx = 0.01;
-// A vector is explained if it is this near, pixels, or this share of what the rotation says.
+// A vector is explained if it is this near, pixels, or within this fraction
+// of the flow of the rotation.
 constexpr double kNoisePx = 0.35;
 constexpr double kNoiseShare = 0.15;
-// A trace of damping keeps the few-vector case solvable.
+// A little damping keeps the system solvable with few vectors.
 constexpr double kDamping = 1e-9;
-// Sums are added in so many lanes, so that they are the same on every machine.
+// Sums are added in this many lanes, so that they are bit-identical on every machine.
 constexpr std::size_t kLanes = 4;
 
 Intrinsics IntrinsicsOf(const FlowField& field, const Camera& camera) {
@@ -42,7 +43,7 @@ struct System {
   System(const FlowField& field, const Camera& camera);
 
   double focal = 0;
-  // Vectors; the columns are longer, of whole lanes: what is more is zero.
+  // Number of vectors. The columns are padded with zeros to whole lanes.
   std::size_t size = 0;
   std::vector<double> x, y, u, v;
   double median_u = 0;
@@ -93,7 +94,7 @@ System::System(const FlowField& field, const Camera& camera) : size(field.vector
 // Pan, tilt, roll; radians a step.
 using Rotation = Eigen::Vector3d;
 
-// Squares of what the rotation does not explain of each vector, in focal lengths.
+// Squared residual of each vector, in focal lengths.
 HOMING_VECTOR_CLONES
 void SquaredResiduals(const System& system, const Rotation& rotation, float* squares) {
   const double pan = rotation[0], tilt = rotation[1], roll = rotation[2];
@@ -109,7 +110,7 @@ void SquaredResiduals(const System& system, const Rotation& rotation, float* squ
   }
 }
 
-// Weights that fade beyond 1.5 times the median residual.
+// Weights that fall beyond 1.5 times the median residual.
 HOMING_VECTOR_CLONES
 void FadingWeights(const float* squares, std::size_t size, double scale, double* weights) {
   const double per_square = 1 / (scale * scale);
@@ -161,7 +162,7 @@ Rotation SolveWeighted(const System& system, const std::vector<double>& weights)
   return normal.ldlt().solve(Eigen::Vector3d(s[kAF], s[kBF], s[kCF]));
 }
 
-// A rotation, what it leaves over and the weights that follow.
+// A rotation, its residuals, and the weights for the next iteration.
 struct Fit {
   Rotation rotation;
   // One a vector.
@@ -212,7 +213,7 @@ void FitVertical(const System& system, const std::vector<double>& weights, Rotat
   }
   const Eigen::Matrix3d inverse = normal.inverse();
   const Eigen::Vector3d rotation = inverse * right;
-  // Of the weighted squares, what the rotation does not explain.
+  // Weighted sum of the squared residuals.
   const double left_over = std::max(0.0, squares - rotation.dot(right));
   fit.vertical_pan = rotation[0];
   fit.vertical_pan_error = std::sqrt(left_over / sum * inverse(0, 0));

@@ -1,5 +1,5 @@
-// The flow that a turning camera sees: it does not depend on how far things are, so three numbers
-// explain all of it. It is the flow of a rigid rotation.
+// Fits a rigid rotation to the flow. The flow of a turning camera does not depend on distance, so
+// three numbers explain all of it.
 #ifndef HOMING_FLOW_ROTATION_FIT_H_
 #define HOMING_FLOW_ROTATION_FIT_H_
 
@@ -10,10 +10,10 @@ namespace homing {
 
 // Robust fit of a rotation to one camera's vectors.
 struct RotationFit {
-  // Pan (things move to higher x), radians a step, from both components of the flow.
+  // Pan in radians a step, positive if the image moves to higher x; from both flow components.
   double pan = 0;
-  // Pan from the vertical components alone, and its standard error: sideways motion past anything
-  // has none, a turn has. Both 0 when the rotation explains less than half of the vectors.
+  // Pan from the vertical components alone, and its standard error: a turn shows in them, sideways
+  // motion does not. Both are 0 when the rotation explains less than half of the vectors.
   double vertical_pan = 0;
   double vertical_pan_error = 0;
   // Share of the vectors that the rotation explains. [0, 1].

@@ -9,7 +9,7 @@
 namespace homing {
 namespace {
 
-// More than doubled there is nothing more to see; below this side there is no window to track.
+// Enlarging by more than two adds no information. A smaller side holds no tracking window.
 constexpr double kMaxScale = 2;
 constexpr int kMinSidePx = 16;
 
@@ -32,7 +32,7 @@ const cv::Mat& SmoothedImage(const cv::Mat& gray, const FlowOptions& options,
   return *image;
 }
 
-// One row: deviations from the mean, in local deviations. The same to the bit on every machine.
+// Normalises one row: (value - local mean) / local deviation. Bit-identical on every machine.
 HOMING_VECTOR_CLONES
 void NormalizeRow(const float* in, const float* mean, const float* square, float floor, int size,
                   float* out) {

@@ -1,6 +1,6 @@
 // The image that corners are found in and tracked: resized, smoothed, and normalised by local mean
-// and deviation, so that light and exposure drop out. The paper's method
-// needs constant brightness (II-B, 1).
+// and deviation, so that light and exposure have no effect. The paper's
+// method assumes constant brightness (II-B, 1).
 #ifndef HOMING_FLOW_WORKING_IMAGE_H_
 #define HOMING_FLOW_WORKING_IMAGE_H_
 
@@ -26,8 +26,8 @@ struct WorkingScale {
 // Size of the working image of a source of this size.
 cv::Size WorkingSize(const cv::Size& source, const FlowOptions& options);
 
-// Images of one step to the next, kept for the next frame of the same size: most of the time of a
-// small frame went into fresh pages.
+// Intermediate images, reused for the next frame of the same size: allocating them took most of
+// the time of a small frame.
 struct WorkingBuffers {
   cv::Mat levels;
   cv::Mat resized;

@@ -1,4 +1,4 @@
-// How a camera was held, as it says in the EXIF part of its images.
+// The orientation of a camera, as the EXIF part of its images gives it.
 #ifndef HOMING_IMAGE_ORIENTATION_H_
 #define HOMING_IMAGE_ORIENTATION_H_
 

@@ -1,4 +1,4 @@
-// What is done alike for both cameras of the robot.
+// Operations on both cameras of the robot.
 #ifndef HOMING_JOURNEY_CAMERA_PAIR_H_
 #define HOMING_JOURNEY_CAMERA_PAIR_H_
 
@@ -9,7 +9,7 @@
 
 namespace homing {
 
-// What ideal cameras, square to the direction of travel, would have seen.
+// The flow that ideal cameras, square to the direction of travel, would have seen.
 ObservedFlow Rectify(const ObservedFlow& flow, const std::array<Camera, 2>& cameras);
 
 }  // namespace homing

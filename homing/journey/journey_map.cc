@@ -12,76 +12,84 @@ namespace {
 // Paper III: two a camera.
 constexpr int kMostFingerprintsPerSide = 2;
 
-absl::Status CheckValues(const Fingerprint& f) {
+constexpr double kMaxSpread = 1e9;
+
+absl::Status CheckValues(const RecordedFingerprint& recorded) {
+  const Fingerprint& f = recorded.fingerprint;
+  const auto field = [&](const char* name) {
+    return absl::StrCat(name, " of landmark ", f.landmark);
+  };
   if (f.count <= 0) {
-    return absl::InvalidArgumentError(
-        absl::StrCat("count of landmark ", f.landmark, " is ", f.count, ", must be positive"));
+    return MustBe(field("count"), f.count, "at least 1");
   }
   if (!std::isfinite(f.x) || !std::isfinite(f.y)) {
-    return absl::InvalidArgumentError(absl::StrCat("mean of landmark ", f.landmark, " is (", f.x,
-                                                   ", ", f.y, "), must be finite"));
+    return MustBe(field("mean"), absl::StrCat("(", f.x, ", ", f.y, ")"), "finite");
   }
-  return absl::OkStatus();
-}
-
-absl::Status CheckOrder(const std::vector<RecordedFingerprint>& fingerprints) {
-  std::array<int, 2> on_side{};
-  for (const RecordedFingerprint& recorded : fingerprints) {
-    if (recorded.side == Side::kLeft && on_side[1] > 0) {
-      return absl::InvalidArgumentError("fingerprints: right before left, must be left first");
-    }
-    if (++on_side[static_cast<std::size_t>(recorded.side)] > kMostFingerprintsPerSide) {
-      return absl::InvalidArgumentError(absl::StrCat(
-          "fingerprints: over ", kMostFingerprintsPerSide, " on one side, must be at most that"));
-    }
-  }
-  return absl::OkStatus();
+  return CheckRange(field("spread"), recorded.spread, 0.0, kMaxSpread);
 }
 
 }  // namespace
+
+absl::Status CheckFingerprints(const JourneyStep& step) {
+  std::array<int, 2> on_side{};
+  for (const RecordedFingerprint& recorded : step.fingerprints) {
+    if (recorded.side == Side::kLeft && on_side[1] > 0) {
+      return FieldError("fingerprints",
+                        absl::StrCat("of step ", step.step, " must have left before right"));
+    }
+    if (++on_side[static_cast<std::size_t>(recorded.side)] > kMostFingerprintsPerSide) {
+      return FieldError("fingerprints", absl::StrCat("of step ", step.step, " must be at most ",
+                                                     kMostFingerprintsPerSide, " on one side"));
+    }
+    HOMING_RETURN_IF_ERROR(CheckValues(recorded));
+  }
+  return absl::OkStatus();
+}
+
+absl::Status CheckStepSequence(const JourneyStep& step, std::int64_t least) {
+  if (step.sequence == kNextSequence || step.sequence >= least) {
+    return absl::OkStatus();
+  }
+  return MustBe(absl::StrCat("sequence of step ", step.step), step.sequence,
+                absl::StrCat("at least ", least));
+}
 
 absl::Status JourneyMap::CheckLandmark(const JourneyStep& step, std::size_t index,
                                        std::size_t known) const {
   const RecordedFingerprint& recorded = step.fingerprints[index];
   const std::int32_t landmark = recorded.fingerprint.landmark;
   if (landmark < 0 || static_cast<std::size_t>(landmark) > known) {
-    return absl::InvalidArgumentError(
-        absl::StrCat("landmark is ", landmark, ", must be known or next, in [0, ", known, "]"));
+    return MustBe("landmark", landmark, absl::StrCat("in [0, ", known, "], known or next"));
   }
   for (std::size_t i = 0; i < index; ++i) {
     if (step.fingerprints[i].fingerprint.landmark == landmark) {
-      return absl::InvalidArgumentError(
-          absl::StrCat("landmark ", landmark, " is twice in step ", step.step));
+      return FieldError("landmark", absl::StrCat(landmark, " is twice in step ", step.step));
     }
   }
   const auto number = static_cast<std::size_t>(landmark);
   if (number < landmarks_.size() && landmarks_[number].side != recorded.side) {
-    return absl::InvalidArgumentError(absl::StrCat("side of landmark ", landmark, " in step ",
-                                                   step.step, " is not the side it was met on"));
+    return FieldError(absl::StrCat("side of landmark ", landmark),
+                      absl::StrCat("must be the side where it was met, in step ", step.step));
   }
-  return CheckRange("spread", recorded.spread, 0.0, 1e9);
+  return absl::OkStatus();
 }
 
 std::int64_t JourneyMap::NextSequence() const {
   return sequences_.empty() ? 1 : sequences_.back() + 1;
 }
 
-// The steps between have sequences too.
+// The steps in between have sequences too.
 absl::Status JourneyMap::CheckSequence(const JourneyStep& step) const {
   const std::int64_t first = sequences_.empty() ? 0 : NextSequence();
-  const std::int64_t least = first + step.step - step_count();
-  if (step.sequence == kNextSequence || step.sequence >= least) return absl::OkStatus();
-  return absl::InvalidArgumentError(absl::StrCat("sequence of step ", step.step, " is ",
-                                                 step.sequence, ", must be at least ", least));
+  return CheckStepSequence(step, first + step.step - step_count());
 }
 
 absl::Status JourneyMap::Check(const JourneyStep& step) const {
   HOMING_RETURN_IF_ERROR(CheckRange("step", step.step, step_count(), kMostSteps - 1));
   HOMING_RETURN_IF_ERROR(CheckSequence(step));
-  HOMING_RETURN_IF_ERROR(CheckOrder(step.fingerprints));
+  HOMING_RETURN_IF_ERROR(CheckFingerprints(step));
   std::size_t known = landmarks_.size();
   for (std::size_t i = 0; i < step.fingerprints.size(); ++i) {
-    HOMING_RETURN_IF_ERROR(CheckValues(step.fingerprints[i].fingerprint));
     HOMING_RETURN_IF_ERROR(CheckLandmark(step, i, known));
     if (static_cast<std::size_t>(step.fingerprints[i].fingerprint.landmark) == known) {
       ++known;
@@ -98,7 +106,7 @@ void JourneyMap::CountIn(std::int64_t step, const RecordedFingerprint& recorded)
   Landmark& landmark = landmarks_[number];
   landmark.last_step = step;
   ++landmark.fingerprint_count;
-  // Running mean: resumes exactly from what is stored.
+  // A running mean: recording resumes exactly from the stored value.
   landmark.spread += (recorded.spread - landmark.spread) / landmark.fingerprint_count;
 }
 
@@ -107,7 +115,7 @@ absl::Status JourneyMap::Append(const JourneyStep& step) {
   const auto before = static_cast<std::size_t>(step_count());
   ExtendTo(step.step + 1);
   if (step.sequence != kNextSequence) {
-    // The steps between, which have no row in the store, come right before it.
+    // The steps in between, which have no row in the store, come right before it.
     std::int64_t sequence = step.sequence;
     for (std::size_t i = sequences_.size(); i-- > before;) sequences_[i] = sequence--;
   }

@@ -20,7 +20,7 @@
 
 namespace homing {
 
-// A landmark as counted along the journey.
+// A landmark, numbered along the journey.
 struct Landmark {
   Side side = Side::kLeft;
   std::int64_t first_step = 0;
@@ -43,7 +43,7 @@ struct RecordedFingerprint {
 // step.
 inline constexpr std::int64_t kNextSequence = -1;
 
-// One step of a journey. Without fingerprints when turning, or nothing was seen.
+// One step of a journey. It has no fingerprints if the robot turned or nothing was seen.
 struct JourneyStep {
   // From 0, home first.
   std::int64_t step = 0;
@@ -58,7 +58,14 @@ struct JourneyStep {
   friend bool operator==(const JourneyStep&, const JourneyStep&) = default;
 };
 
-// Most steps of a journey: 46 days at five observations a second. Bounds what a damaged map claims.
+// INVALID_ARGUMENT unless the fingerprints have left before right, at most two a side, finite
+// means, counts above 0 and spreads in [0, 1e9].
+absl::Status CheckFingerprints(const JourneyStep& step);
+// INVALID_ARGUMENT if the step has a sequence below `least`.
+absl::Status CheckStepSequence(const JourneyStep& step, std::int64_t least);
+
+// Most steps of a journey: 46 days at five observations a second. Bounds the step count that a
+// damaged map claims.
 inline constexpr std::int64_t kMostSteps = 20'000'000;
 
 // Not thread-safe: the holder locks. 16 bytes a fingerprint, 16 a step, 96 a profile.
@@ -67,10 +74,10 @@ class JourneyMap {
   JourneyMap() = default;
   explicit JourneyMap(JourneySettings settings) : settings_(std::move(settings)) {}
 
-  // INVALID_ARGUMENT: `step` is not step_count() or further on (steps between are empty), a
-  // landmark that is neither known nor next or twice in the step, a side unlike the landmark's, a
-  // count not positive, a non-finite mean, over two fingerprints a side, right before left, a
-  // sequence too low for the steps between. After an error the map is as before.
+  // INVALID_ARGUMENT: `step` is below step_count() (steps left out are empty), a landmark that is
+  // neither known nor next or twice in the step, a side unlike the landmark's, as
+  // CheckFingerprints, a sequence too low for the steps in between. After an error the map is as
+  // before.
   absl::Status Append(const JourneyStep& step);
   // Adds empty steps at the end until there are `step_count`. REQUIRES: step_count <= kMostSteps.
   void ExtendTo(std::int64_t step_count);
@@ -91,16 +98,16 @@ class JourneyMap {
   std::int64_t sequence(std::int64_t step) const {
     return sequences_[static_cast<std::size_t>(step)];
   }
-  // REQUIRES: one of the map's.
+  // REQUIRES: a fingerprint of this map.
   std::int64_t step_of(const Fingerprint& f) const;
   std::span<const Fingerprint> all_fingerprints() const { return fingerprints_; }
-  // Of each step, all 0 where it has none; empty if no step of this side has any.
+  // The profile of each step, all 0 where a step has none; empty if no step of this side has one.
   std::span<const FlowProfile> profiles(Side side) const {
     return profiles_[static_cast<std::size_t>(side)];
   }
-  // One that is all 0 is none. REQUIRES: 0 <= step < step_count().
+  // An all-zero profile counts as none. REQUIRES: 0 <= step < step_count().
   void set_profile(std::int64_t step, Side side, const FlowProfile& profile);
-  // What MeasuredScale found; shared by all that read this map.
+  // The result of MeasuredScale, shared by all readers of this map.
   MeasuredRoute& measured_route() const { return measured_route_; }
   // Indexed by landmark number.
   const std::vector<Landmark>& landmarks() const { return landmarks_; }
@@ -118,7 +125,7 @@ class JourneyMap {
   absl::Status CheckSequence(const JourneyStep& step) const;
   // The sequence of a step that is appended without one.
   std::int64_t NextSequence() const;
-  // Of the fingerprint at `index`, with landmarks below `known` met by then.
+  // Checks the fingerprint at `index`; `known` landmarks were met before it.
   absl::Status CheckLandmark(const JourneyStep& step, std::size_t index, std::size_t known) const;
   void CountIn(std::int64_t step, const RecordedFingerprint& recorded);
 

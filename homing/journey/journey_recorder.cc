@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "absl/strings/str_cat.h"
+#include "homing/base/field_error.h"
 #include "homing/base/status_macros.h"
 #include "homing/flow/motion.h"
 #include "homing/journey/camera_pair.h"
@@ -18,10 +19,6 @@ InputKind KindOf(const CameraView& view) {
   return std::holds_alternative<FlowField>(view) ? InputKind::kFlowVectors : InputKind::kUnknown;
 }
 
-const char* NameOf(InputKind kind) {
-  return kind == InputKind::kFrames ? "frames" : "flow vectors";
-}
-
 // JourneyStep::sequence of the step that the observation may make.
 std::int64_t FrameOf(const Observation& observation, InputKind kind) {
   return kind == InputKind::kFlowVectors ? observation.frame.value_or(observation.sequence)
@@ -30,16 +27,18 @@ std::int64_t FrameOf(const Observation& observation, InputKind kind) {
 
 }  // namespace
 
+const char* NameOf(InputKind kind) {
+  return kind == InputKind::kFrames ? "frames" : "flow vectors";
+}
+
 absl::StatusOr<InputKind> InputKindOf(const Observation& observation) {
   const InputKind left = KindOf(observation.views[0]);
   const InputKind right = KindOf(observation.views[1]);
   if (left == InputKind::kUnknown && right == InputKind::kUnknown) {
-    return absl::InvalidArgumentError(
-        absl::StrCat("observation ", observation.sequence, " has no camera, must have at least 1"));
+    return FieldError("left", "must be set unless right is");
   }
   if (left != InputKind::kUnknown && right != InputKind::kUnknown && left != right) {
-    return absl::InvalidArgumentError(absl::StrCat(
-        "observation ", observation.sequence, " has frames and flow vectors, must have one kind"));
+    return FieldError("right", "must be frames or flow vectors, as left is");
   }
   return std::max(left, right);
 }
@@ -68,7 +67,7 @@ absl::Status JourneyRecorder::CheckKind(InputKind kind) const {
     return absl::OkStatus();
   }
   return absl::InvalidArgumentError(
-      absl::StrCat("observation has ", NameOf(kind), ", must have the journey's ", NameOf(kind_)));
+      absl::StrCat(NameOf(kind), " must be ", NameOf(kind_), ", as before"));
 }
 
 // Frames up to the last step rebuild state; flow vectors have none to rebuild.
@@ -76,8 +75,7 @@ absl::Status JourneyRecorder::CheckGrows(std::int64_t made_by, InputKind kind) c
   if (kind == InputKind::kFrames || made_by > last_sequence_) {
     return absl::OkStatus();
   }
-  return absl::InvalidArgumentError(
-      absl::StrCat("frame is ", made_by, ", must be over that of the last step, ", last_sequence_));
+  return MustBe("frame", made_by, absl::StrCat("over ", last_sequence_, ", that of the last step"));
 }
 
 std::int64_t JourneyRecorder::resend_from() const {
@@ -97,7 +95,7 @@ absl::StatusOr<std::optional<JourneyStep>> JourneyRecorder::Record(const Observa
   if (!flow.makes_step || made_by <= last_sequence_) {
     return std::nullopt;
   }
-  // Own design: what an ideal camera, square to the direction of travel, would have seen.
+  // Added to the paper: the flow that ideal cameras, square to the direction of travel, would see.
   flow = Rectify(flow, settings_.cameras);
   JourneyStep step{.step = next_step_,
                    .motion = ClassifyMotion(flow, settings_.cameras),
@@ -119,14 +117,14 @@ void JourneyRecorder::AddLandmarks(Side side, const std::optional<FlowField>& fi
   if (!field) {
     return;
   }
-  // Own design: where the vectors are, and how far away.
+  // Added to the paper: where the vectors are, and how far away.
   step.profiles[static_cast<std::size_t>(side)] = MakeFlowProfile(*field);
   // III, Fig. 4, equations (11), (12): at most two landmarks a camera.
   const std::vector<SeenLandmark> seen = FindLandmarks(*field, settings_.landmark);
-  // III: counted along the journey.
-  const std::vector<Fingerprint> counted = tracker_.Count(step.step, side, seen);
-  for (std::size_t i = 0; i < counted.size(); ++i) {
-    step.fingerprints.push_back({side, counted[i], seen[i].spread});
+  // III: numbered along the journey.
+  const std::vector<Fingerprint> numbered = tracker_.Associate(step.step, side, seen);
+  for (std::size_t i = 0; i < numbered.size(); ++i) {
+    step.fingerprints.push_back({side, numbered[i], seen[i].spread});
   }
 }
 

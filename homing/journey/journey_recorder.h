@@ -14,24 +14,27 @@
 
 namespace homing {
 
-// What a journey is fed with; fixed by its first observation.
+// The kind of input of a journey; fixed by its first observation.
 enum class InputKind { kUnknown = 0, kFrames = 1, kFlowVectors = 2 };
+
+// "frames", "flow vectors". REQUIRES: known.
+const char* NameOf(InputKind kind);
 
 // INVALID_ARGUMENT: frames and flow vectors in one observation, or no camera.
 absl::StatusOr<InputKind> InputKindOf(const Observation& observation);
 
-// The end of a journey: what its recording goes on from.
+// The state at the end of a journey, from which recording resumes.
 struct JourneyTail {
   std::int64_t step_count = 0;
   std::int32_t landmark_count = 0;
   // JourneyStep::sequence of the last step; -1: there is no step.
   std::int64_t last_sequence = -1;
   // From FirstTailStep on, in order; those without fingerprints may be left out. Only their numbers
-  // and fingerprints count.
+  // and fingerprints are used.
   std::vector<JourneyStep> steps;
 };
 
-// First step that tracking still looks back on after `step_count` steps.
+// The first step that the tracker still needs after `step_count` steps.
 std::int64_t FirstTailStep(const JourneySettings& settings, std::int64_t step_count);
 
 // One stream of one journey. Not thread-safe.
@@ -40,28 +43,28 @@ class JourneyRecorder {
   // REQUIRES: Validate(settings).ok().
   explicit JourneyRecorder(const JourneySettings& settings, const DecodeLimits& limits = {});
 
-  // Takes up a journey that has been recorded before, with the settings given above.
+  // Continues a journey that was recorded before with the same settings.
   void Resume(const JourneyTail& tail);
 
-  // Nothing for an observation that makes no step, and for frames up to the last step of the
-  // journey at Resume (they rebuild state only). Steps are numbered on without gaps.
+  // The step that the observation makes. Nothing if it makes none, and for frames up to the last
+  // step at Resume, which only rebuild the state. Steps are numbered without gaps.
   // INVALID_ARGUMENT: as InputKindOf and ObservationFlow, a kind unlike the first, flow vectors of
   // a frame that is not after the one of the last step;
   // FAILED_PRECONDITION: image size unlike the journey's camera. After an error the state is as
   // before the call.
   absl::StatusOr<std::optional<JourneyStep>> Record(const Observation& observation);
 
-  // What must be recorded first after a restart, so that tracking goes on as if there had been
-  // none: for frames, the reference; flow vectors need nothing, it is the next observation.
+  // The observation to start with after a restart, so that tracking continues as without one: for
+  // frames the reference; for flow vectors the next observation.
   std::int64_t resend_from() const;
 
-  // With image sizes filled in as they become known.
+  // Image sizes are filled in as they become known.
   const JourneySettings& settings() const { return settings_; }
 
  private:
   absl::Status CheckKind(InputKind kind) const;
   absl::Status CheckGrows(std::int64_t made_by, InputKind kind) const;
-  // The landmarks of one camera's field, counted, to the step.
+  // Adds the numbered landmarks of one camera's field to the step.
   void AddLandmarks(Side side, const std::optional<FlowField>& field, JourneyStep& step);
 
   JourneySettings settings_;

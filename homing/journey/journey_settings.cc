@@ -1,7 +1,6 @@
 #include "homing/journey/journey_settings.h"
 
 #include "absl/strings/match.h"
-#include "absl/strings/str_cat.h"
 #include "homing/base/range_check.h"
 #include "homing/base/status_macros.h"
 
@@ -10,12 +9,10 @@ namespace homing {
 absl::Status Validate(const JourneySettings& settings) {
   HOMING_RETURN_IF_ERROR(Within("left_camera", Validate(settings.cameras[0])));
   HOMING_RETURN_IF_ERROR(Within("right_camera", Validate(settings.cameras[1])));
-  HOMING_RETURN_IF_ERROR(Validate(settings.flow));
-  HOMING_RETURN_IF_ERROR(Validate(settings.landmark));
+  HOMING_RETURN_IF_ERROR(Within("flow", Validate(settings.flow)));
+  HOMING_RETURN_IF_ERROR(Within("landmark", Validate(settings.landmark)));
   if (!absl::StartsWith(settings.deviation_model_name, "deviationModels/")) {
-    return absl::InvalidArgumentError(absl::StrCat("deviation_model_name is '",
-                                                   settings.deviation_model_name,
-                                                   "', must begin with 'deviationModels/'"));
+    return TextMustBe("deviation_model", settings.deviation_model_name, "deviationModels/{model}");
   }
   return Within("deviation_model", Validate(settings.deviation_model));
 }

@@ -1,5 +1,5 @@
-// What shapes a journey's stored data: kept with it, and compared at query time. Source: own
-// design.
+// The settings that shape a journey's stored data. They are stored with it and compared at query
+// time.
 #ifndef HOMING_JOURNEY_JOURNEY_SETTINGS_H_
 #define HOMING_JOURNEY_JOURNEY_SETTINGS_H_
 

@@ -1,4 +1,4 @@
-// Keeps what was measured on a map with the map, so that it is measured once, not by each robot.
+// A measurement of a map, kept with the map so that robots that share it measure it only once.
 #ifndef HOMING_JOURNEY_MEASURED_ROUTE_H_
 #define HOMING_JOURNEY_MEASURED_ROUTE_H_
 
@@ -10,8 +10,8 @@ namespace homing {
 
 struct RouteScale;
 
-// Thread-safe: robots that share a map measure it at the same time. A copied or moved map takes it
-// along.
+// Thread-safe: robots that share a map measure it at the same time. A copied or moved map
+// keeps it.
 class MeasuredRoute {
  public:
   MeasuredRoute() = default;

@@ -1,4 +1,4 @@
-// The fingerprint: all that is kept of a landmark at one step (paper III, eqs 11, 12).
+// The fingerprint: the stored data of a landmark at one step (paper III, eqs 11, 12).
 #ifndef HOMING_LANDMARK_FINGERPRINT_H_
 #define HOMING_LANDMARK_FINGERPRINT_H_
 
@@ -6,8 +6,8 @@
 
 namespace homing {
 
-// The same 16 bytes in memory, on disk and on the wire. Journey, step and side belong to what holds
-// it.
+// The same 16 bytes in memory, on disk and on the wire. The container knows the
+// journey, the step and the side.
 struct Fingerprint {
   // Mean midpoint, source pixels.
   float x = 0;

@@ -21,7 +21,7 @@ void FindBins(std::span<const FlowVector> vectors, int width, std::int32_t bins,
   const FlowVector* const from = vectors.data();
   const double per_image = std::max(1, width);
   for (std::size_t i = 0; i < vectors.size(); ++i) {
-    // Of ends that are not all finite the length is not.
+    // An end that is not finite makes the length not finite.
     const double length = from[i].Length();
     const bool usable = (length >= min_length) & (length <= std::numeric_limits<double>::max());
     const double x = from[i].MidX() / per_image;
@@ -32,7 +32,7 @@ void FindBins(std::span<const FlowVector> vectors, int width, std::int32_t bins,
   }
 }
 
-// Weights 1, 2, 1 of four: one bin that is empty by chance is no valley.
+// Smooths with weights 1/4, 1/2, 1/4, so that one bin that is empty by chance makes no valley.
 std::vector<double> Smoothed(const std::vector<int>& histogram) {
   const std::size_t last = histogram.size() - 1;
   std::vector<double> result(histogram.size());
@@ -61,7 +61,7 @@ std::vector<double> Depths(const std::vector<double>& histogram, double max_rati
   return depths;
 }
 
-// Both sides of the bin are landmarks by themselves.
+// True if each side of the bin has enough vectors for a landmark.
 bool SidesAreLarge(const std::vector<int>& histogram, std::size_t bin,
                    const LandmarkOptions& options) {
   const auto middle = histogram.begin() + static_cast<std::ptrdiff_t>(bin);
@@ -72,7 +72,7 @@ bool SidesAreLarge(const std::vector<int>& histogram, std::size_t bin,
   return std::min(left, right) >= least;
 }
 
-// Middle of the lowest bin between the two peaks (Fig. 4), of a gap of equal bins the gap's middle.
+// The middle of the lowest bin between the two peaks (Fig. 4); of several equal ones, their middle.
 std::optional<double> ValleyOf(const std::vector<int>& histogram, int width,
                                const LandmarkOptions& options) {
   const std::vector<double> depths = Depths(Smoothed(histogram), options.max_valley_ratio);

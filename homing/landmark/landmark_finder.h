@@ -11,7 +11,7 @@
 
 namespace homing {
 
-// A landmark as one camera sees it at one step, before it is counted.
+// A landmark as one camera sees it at one step, before it has a number.
 struct SeenLandmark {
   // Mean of the midpoints (eqs 11, 12), rounded once to float32.
   float x = 0;
@@ -25,7 +25,7 @@ struct SeenLandmark {
   double spread = 0;
 };
 
-// The working of the valley, for pictures and tests.
+// The steps of the search for the valley, for pictures and tests.
 struct LandmarkSplit {
   // Vectors a bin over [0, width).
   std::vector<int> histogram;
@@ -35,7 +35,7 @@ struct LandmarkSplit {
   std::vector<int> assignment;
 };
 
-// Drops non-finite and short vectors, divides the rest.
+// Drops non-finite and short vectors, and divides the rest.
 LandmarkSplit SplitAtValley(const FlowField& field, const LandmarkOptions& options);
 
 // At most two, from low x to high x. REQUIRES: Validate(options).ok().

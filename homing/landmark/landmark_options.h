@@ -6,7 +6,7 @@
 
 namespace homing {
 
-// Change what is stored: kept with the journey.
+// These options change the stored fingerprints, so they are stored with the journey.
 struct LandmarkOptions {
   // Vectors shorter than this are outliers (III, Fig. 4). Source pixels. [0, 50].
   double min_vector_length_px = 0.5;

@@ -8,9 +8,9 @@
 namespace homing {
 namespace {
 
-constexpr std::int32_t kUncounted = -1;
+constexpr std::int32_t kNew = -1;
 
-// A seen landmark (index) that may be the counted one.
+// A landmark seen now, by its index, that may continue a known one.
 struct Pair {
   double distance;
   std::int32_t landmark;
@@ -21,20 +21,20 @@ struct Pair {
   }
 };
 
-// Pixels between where the landmark was and where the one seen now must have been `steps` ago.
+// Pixels between the known mean and the place where the flow puts the seen mean `steps` ago.
 double DistanceBack(const SeenLandmark& seen, const Fingerprint& before, std::int64_t steps) {
   const auto g = static_cast<double>(steps);
   return std::hypot(double{seen.x} - g * seen.flow_x - double{before.x},
                     double{seen.y} - g * seen.flow_y - double{before.y});
 }
 
-// Nearest first, one to one: the landmark of each seen one, or kUncounted.
+// For each seen landmark the known one it continues, or kNew. One to one; the nearest pair first.
 std::vector<std::int32_t> Assign(std::vector<Pair> pairs, std::size_t seen_count) {
   std::sort(pairs.begin(), pairs.end());
-  std::vector<std::int32_t> result(seen_count, kUncounted);
+  std::vector<std::int32_t> result(seen_count, kNew);
   for (const Pair& pair : pairs) {
     const bool taken = std::find(result.begin(), result.end(), pair.landmark) != result.end();
-    if (!taken && result[pair.seen] == kUncounted) {
+    if (!taken && result[pair.seen] == kNew) {
       result[pair.seen] = pair.landmark;
     }
   }
@@ -45,8 +45,8 @@ std::vector<std::int32_t> Assign(std::vector<Pair> pairs, std::size_t seen_count
 
 LandmarkTracker::LandmarkTracker(const LandmarkOptions& options) : options_(options) {}
 
-std::vector<Fingerprint> LandmarkTracker::Count(std::int64_t step, Side side,
-                                                const std::vector<SeenLandmark>& seen) {
+std::vector<Fingerprint> LandmarkTracker::Associate(std::int64_t step, Side side,
+                                                    const std::vector<SeenLandmark>& seen) {
   Forget(step, side);
   std::vector<Pair> pairs;
   for (const Active& active : active_[static_cast<std::size_t>(side)]) {
@@ -60,7 +60,7 @@ std::vector<Fingerprint> LandmarkTracker::Count(std::int64_t step, Side side,
   const std::vector<std::int32_t> landmarks = Assign(std::move(pairs), seen.size());
   std::vector<Fingerprint> fingerprints;
   for (std::size_t i = 0; i < seen.size(); ++i) {
-    const std::int32_t landmark = landmarks[i] == kUncounted ? next_landmark_ : landmarks[i];
+    const std::int32_t landmark = landmarks[i] == kNew ? next_landmark_ : landmarks[i];
     fingerprints.push_back({seen[i].x, seen[i].y, seen[i].count, landmark});
     Restore(step, side, fingerprints.back());
   }
@@ -77,7 +77,7 @@ void LandmarkTracker::Restore(std::int64_t step, Side side, const Fingerprint& f
   active.push_back({step, fingerprint});
 }
 
-// A landmark missing for more than the allowed steps comes back as another.
+// A landmark that was missing for more than the allowed steps gets a new number when it is back.
 void LandmarkTracker::Forget(std::int64_t step, Side side) {
   std::erase_if(active_[static_cast<std::size_t>(side)], [this, step](const Active& active) {
     return step - active.step > options_.max_track_gap_steps + 1;

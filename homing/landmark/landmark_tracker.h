@@ -1,5 +1,5 @@
-// Counts landmarks along a journey: the landmark seen at one step and the one seen at the next are
-// the same while its mean moves as the flow says. Source: paper III (counting of landmarks).
+// Numbers landmarks along a journey: a landmark seen at one step and one seen at a later step are
+// the same if its mean moved as the flow says. Source: paper III (counting of landmarks).
 #ifndef HOMING_LANDMARK_LANDMARK_TRACKER_H_
 #define HOMING_LANDMARK_LANDMARK_TRACKER_H_
 
@@ -21,15 +21,16 @@ class LandmarkTracker {
   // REQUIRES: Validate(options).ok().
   explicit LandmarkTracker(const LandmarkOptions& options);
 
-  // Numbers the landmarks seen at `step` on `side`; call once a side and step, steps increasing,
-  // left before right. One to one: nearest pair first.
-  std::vector<Fingerprint> Count(std::int64_t step, Side side,
-                                 const std::vector<SeenLandmark>& seen);
+  // Gives each landmark seen at `step` on `side` the number of the known landmark it continues,
+  // nearest pair first, or the next free number. Call it once a side and step, with increasing
+  // steps, left before right.
+  std::vector<Fingerprint> Associate(std::int64_t step, Side side,
+                                     const std::vector<SeenLandmark>& seen);
 
-  // Takes a stored fingerprint back into the state; call in order of step.
+  // Adds a stored fingerprint to the state. Call it in order of step.
   void Restore(std::int64_t step, Side side, const Fingerprint& fingerprint);
 
-  // Landmarks counted so far; the next new one gets this number.
+  // Landmarks numbered so far; the next new one gets this number.
   int landmark_count() const { return next_landmark_; }
   void set_landmark_count(int count) { next_landmark_ = count; }
 

@@ -38,8 +38,8 @@ std::optional<double> TurnOnSpot(const ObservedFlow& flow, const std::array<Came
 absl::Status Validate(const LocalizerOptions& options) {
   HOMING_RETURN_IF_ERROR(Within("left_camera", Validate(options.cameras[0])));
   HOMING_RETURN_IF_ERROR(Within("right_camera", Validate(options.cameras[1])));
-  HOMING_RETURN_IF_ERROR(Validate(options.flow));
-  HOMING_RETURN_IF_ERROR(Validate(options.landmark));
+  HOMING_RETURN_IF_ERROR(Within("flow", Validate(options.flow)));
+  HOMING_RETURN_IF_ERROR(Within("landmark", Validate(options.landmark)));
   HOMING_RETURN_IF_ERROR(Within("match", Validate(options.match)));
   return Within("position", Validate(options.position));
 }

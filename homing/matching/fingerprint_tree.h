@@ -45,7 +45,7 @@ struct TreeQuery {
   std::int32_t count = 0;
 };
 
-// The work of a search.
+// The cost of a search.
 struct SearchCost {
   // Fingerprints in the visited buckets.
   std::int64_t visited = 0;
@@ -63,7 +63,7 @@ class FingerprintTree {
   // Visits every entry whose P_T reaches visitor->least(), and some others.
   void Search(const TreeQuery& query, const SurvivalBound& bound, TreeVisitor* visitor,
               SearchCost* cost) const;
-  // Removes the entries for which `unwanted` is true from `buckets` buckets, from `first` on.
+  // Removes the entries for which `unwanted` is true from `buckets` buckets, starting at `first`.
   void RemoveIf(std::uint32_t first, std::uint32_t buckets,
                 const std::function<bool(const TreeEntry&)>& unwanted);
 

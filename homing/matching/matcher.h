@@ -89,7 +89,7 @@ class Matcher {
   void Clear();
   void Scan(int number, const JourneyMap& map, std::int64_t first, std::int64_t last,
             const SeenSides& seen, double threshold);
-  // Those of at most kTile that have something that is seen at less than this squared distance.
+  // Selects, of at most kTile fingerprints, those within this squared distance of a seen landmark.
   std::span<const Fingerprint* const> FindNear(std::span<const Fingerprint> tile, float reach);
   // Over all steps.
   void ScanAll(std::span<const JourneyRef> journeys, const SeenSides& seen, double threshold);

@@ -142,8 +142,7 @@ absl::StatusOr<Observation> FromProto(const v1::Observation& message, const Wire
   observation.break_before = message.break_before();
   if (message.has_frame()) {
     if (message.frame() < 0) {
-      return absl::InvalidArgumentError(
-          absl::StrCat("observation.frame is ", message.frame(), ": must be at least 0"));
+      return MustBe("observation.frame", message.frame(), "at least 0");
     }
     observation.frame = message.frame();
   }

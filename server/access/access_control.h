@@ -27,7 +27,7 @@ struct AccessFiles {
 // Thread-safe.
 class AccessControl {
  public:
-  // Without any file everyone who reaches the server is an admin. INVALID_ARGUMENT.
+  // Without any file every caller is an admin. INVALID_ARGUMENT.
   static absl::StatusOr<std::unique_ptr<AccessControl>> Open(const AccessFiles& files);
 
   // No credentials are required.

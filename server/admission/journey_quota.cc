@@ -13,7 +13,7 @@ namespace {
 constexpr std::int64_t kFingerprintBytes = 16;
 constexpr std::int64_t kStepBytes = 216;
 constexpr std::int64_t kSecondNs = 1'000'000'000;
-// Space appears only when somebody deletes: frequent retries do not help.
+// Space appears only after a deletion, so frequent retries do not help.
 constexpr char kRetryMs[] = "10000";
 constexpr int kPage = 1000;
 

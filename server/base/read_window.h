@@ -33,7 +33,7 @@ class ReadWindow {
   bool IsEmpty() const { return sizes_.empty(); }
 
  private:
-  // A vector: an empty deque takes 600 bytes, and there are many streams.
+  // A vector and not a deque: an empty deque takes 600 bytes, and there are many streams.
   std::vector<std::size_t> sizes_;
   std::size_t bytes_ = 0;
 };

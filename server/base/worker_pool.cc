@@ -9,7 +9,7 @@
 namespace homing::server {
 namespace {
 
-// After so many tasks of one stream, other streams have their turn.
+// A worker runs at most this many tasks of one stream before it takes another stream.
 constexpr int kTasksATurn = 8;
 
 void RunOpenCvSingleThreaded() {

@@ -61,7 +61,7 @@ class Strand : public std::enable_shared_from_this<Strand> {
 
   WorkerPool* const pool_;
   Mutex mutex_;
-  // A list: an empty deque takes 600 bytes, and there are many strands.
+  // A list and not a deque: an empty deque takes 600 bytes, and there are many strands.
   std::list<WorkerPool::Task> tasks_ HOMING_GUARDED_BY(mutex_);
   bool scheduled_ HOMING_GUARDED_BY(mutex_) = false;
 };

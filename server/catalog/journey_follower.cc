@@ -10,30 +10,11 @@
 namespace homing::server {
 
 JourneyFollower::JourneyFollower(storage::JourneyStore* store, JourneyCatalog* catalog)
-    : store_(store), catalog_(catalog) {
-  thread_ = std::thread([this] { Run(); });
-}
-
-JourneyFollower::~JourneyFollower() {
-  {
-    const MutexLock lock(mutex_);
-    stopping_ = true;
-  }
-  stopped_.NotifyAll();
-  thread_.join();
-}
-
-void JourneyFollower::Run() {
-  while (true) {
-    // StoreWatch reports a store that does not answer.
-    FollowAll().IgnoreError();
-    const auto next = std::chrono::steady_clock::now() + kInterval;
-    const MutexLock lock(mutex_);
-    while (!stopping_ && stopped_.WaitUntil(mutex_, next)) {
-    }
-    if (stopping_) return;
-  }
-}
+    : store_(store), catalog_(catalog), thread_([this] {
+        // StoreWatch reports a store that does not answer.
+        FollowAll().IgnoreError();
+        return kInterval;
+      }) {}
 
 absl::Status JourneyFollower::FollowAll() {
   const auto journeys = catalog_->InMemory();

@@ -1,12 +1,11 @@
-// Keeps the journeys in memory like a store that other servers write to.
+// Keeps the journeys in memory equal to a store that other servers write to.
 #ifndef SERVER_CATALOG_JOURNEY_FOLLOWER_H_
 #define SERVER_CATALOG_JOURNEY_FOLLOWER_H_
 
 #include <chrono>
-#include <thread>
 
 #include "absl/status/status.h"
-#include "homing/base/mutex.h"
+#include "server/base/periodic_thread.h"
 #include "server/catalog/journey_catalog.h"
 #include "storage/journey_store.h"
 
@@ -20,21 +19,14 @@ class JourneyFollower {
 
   // Both must outlive the follower.
   JourneyFollower(storage::JourneyStore* store, JourneyCatalog* catalog);
-  ~JourneyFollower();
-  JourneyFollower(const JourneyFollower&) = delete;
-  JourneyFollower& operator=(const JourneyFollower&) = delete;
 
  private:
-  void Run();
   // Errors of the store; the next round tries again.
   absl::Status FollowAll();
 
   storage::JourneyStore* const store_;
   JourneyCatalog* const catalog_;
-  Mutex mutex_;
-  ConditionVariable stopped_;
-  bool stopping_ HOMING_GUARDED_BY(mutex_) = false;
-  std::thread thread_;
+  PeriodicThread thread_;
 };
 
 }  // namespace homing::server

@@ -37,7 +37,7 @@ class LiveJourney {
               FleetIndex* index = nullptr);
 
   const std::string& name() const { return name_; }
-  // With the counts of this moment.
+  // The record with the current counts.
   storage::JourneyRecord record() const;
   JourneySettings settings() const { return record().settings; }
   bool deleted() const;

@@ -30,9 +30,10 @@ absl::StatusOr<TrainedModel> ModelCatalog::Train(const std::string& model_id,
   if (trained.stored.name == kDefaultModelName) {
     return FieldError("model_id", "\"default\" is built in; choose another id");
   }
-  HOMING_ASSIGN_OR_RETURN(TrainingResult result, TrainDeviationModel(options));
-  trained.stored.model = result.model;
-  trained.deviations_px = std::move(result.deviations_px);
+  absl::StatusOr<TrainingResult> result = TrainDeviationModel(options);
+  if (!result.ok()) return Within("settings", result.status());
+  trained.stored.model = result->model;
+  trained.deviations_px = std::move(result->deviations_px);
   const absl::Status status = store_->CreateModel(trained.stored);
   if (absl::IsAlreadyExists(status)) {
     HOMING_ASSIGN_OR_RETURN(storage::StoredModel present, store_->GetModel(trained.stored.name));

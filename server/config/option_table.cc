@@ -132,8 +132,6 @@ std::string TomlValue(const Value& value) {
 
 }  // namespace
 
-std::span<const ServerOption> AllServerOptions() { return kOptions; }
-
 void AddServerOptions(CLI::App* app, ServerOptions* options) {
   for (const ServerOption& option : kOptions) {
     const std::string flag = absl::StrCat("--", option.name);

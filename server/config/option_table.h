@@ -5,7 +5,6 @@
 #include <CLI/CLI.hpp>
 #include <cstdint>
 #include <functional>
-#include <span>
 #include <string>
 #include <variant>
 
@@ -31,8 +30,6 @@ struct ServerOption {
   // Shown as the metric homing_limit.
   bool is_limit = false;
 };
-
-std::span<const ServerOption> AllServerOptions();
 
 void AddServerOptions(CLI::App* app, ServerOptions* options);
 // INVALID_ARGUMENT naming the first number out of its range.

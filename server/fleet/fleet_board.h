@@ -16,7 +16,8 @@
 
 namespace homing::server {
 
-// Is woken when there is something new. Wake must not block, and may be called from any thread.
+// The board wakes it when there is something new. Wake must not block, and may be called from any
+// thread.
 class FleetWatcher {
  public:
   virtual ~FleetWatcher() = default;
@@ -31,7 +32,7 @@ class FleetBoard {
     std::int64_t journeys = 0;
     std::int64_t newest_ns = 0;
   };
-  // What one robot's newest answer was, for those that watch it.
+  // The newest answer of one robot, for its watchers.
   struct Update {
     // Grows with each update; 0: none yet.
     std::int64_t number = 0;
@@ -46,7 +47,7 @@ class FleetBoard {
     Presence(const Presence&) = delete;
     Presence& operator=(const Presence&) = delete;
 
-    // Somebody watches this robot: the belief is worth computing.
+    // True if the robot has watchers: only then the belief is computed.
     bool IsWatched() const;
     void ReportAnswer(const v1::LocalizeResponse& answer, v1::Belief belief);
     void ReportSteps(std::int64_t steps);
@@ -83,7 +84,7 @@ class FleetBoard {
     int recording = 0;
   };
   Counts Count() const;
-  // Somebody watches all robots.
+  // True if there is a watcher of all robots.
   bool IsFleetWatched() const;
 
  private:

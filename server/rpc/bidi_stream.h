@@ -24,10 +24,10 @@
 
 namespace homing::server {
 
-// OpenBidiStream makes it; it owns itself until gRPC calls OnDone. InlinePolicy decides which
-// thread handles a request. Reading stops while the ReadWindow is full, so that HTTP/2 flow control
-// slows the client down. gRPC calls the On... functions on its own threads, a read and a write at a
-// time.
+// OpenBidiStream creates the stream, which owns itself until gRPC calls OnDone. InlinePolicy
+// decides which thread handles a request. Reading stops while the ReadWindow is full, so that
+// HTTP/2 flow control slows the client down. gRPC calls the On... functions on its own threads,
+// with at most one read and one write open.
 template <typename Request, typename Response>
 class BidiStream : public grpc::ServerBidiReactor<Request, Response>,
                    public OpenStream,
@@ -86,7 +86,7 @@ class BidiStream : public grpc::ServerBidiReactor<Request, Response>,
         reading_ = false;
         half_closed_ = true;
         if (IsUndecodable(*incoming_)) {
-          // Keeps its place behind the requests before, which are answered first.
+          // The error takes its place in the queue: earlier requests are answered first.
           window_.Add(0);
           PostEnd(UndecodableError(*incoming_));
         }
@@ -106,11 +106,11 @@ class BidiStream : public grpc::ServerBidiReactor<Request, Response>,
         return;
       }
     }
-    // No read is open meanwhile: the next request could overtake this one.
+    // Run the task before the next read starts, or the next request could overtake this one.
     strand_->RunOrPost(std::move(task));
     const MutexLock lock(mutex_);
     reading_ = false;
-    // Otherwise Answer or OnWriteDone reads.
+    // If it does not read here, Answer or OnWriteDone starts the next read.
     if (!read_after_answer || window_.IsEmpty()) {
       ReadNext();
     }
@@ -145,14 +145,14 @@ class BidiStream : public grpc::ServerBidiReactor<Request, Response>,
   }
 
  protected:
-  // One at a time, in order. Each request leads to one Answer, one NoAnswer or an End.
+  // Handles one request at a time, in order. Each one leads to one Answer, one NoAnswer or an End.
   virtual absl::Status Handle(const Request& request) = 0;
   // Ends the stream after the answers to earlier requests.
   virtual void EndInTurn(const absl::Status& status) { End(status); }
   virtual void HandleDone() {}  // Releases what belongs to the stream.
 
-  // Any thread. `fill` gets an empty answer, whose memory is reused. It is not called once the
-  // stream has ended.
+  // Sends the answer that `fill` writes into an empty message, whose memory is reused. Does nothing
+  // once the stream has ended. Any thread may call it.
   template <typename Fill>
   void Answer(Fill fill) {
     const MutexLock lock(mutex_);
@@ -170,7 +170,7 @@ class BidiStream : public grpc::ServerBidiReactor<Request, Response>,
     ReadNext();
     FinishIfOver();
   }
-  // After the answers given so far.
+  // Ends the stream after the answers given so far.
   void End(const absl::Status& status) {
     const MutexLock lock(mutex_);
     if (!end_status_) {
@@ -183,8 +183,8 @@ class BidiStream : public grpc::ServerBidiReactor<Request, Response>,
   IncomingCall& call() { return call_; }
 
  private:
-  // Of all streams together: fewer than may wait for their commit, so that an overloaded server
-  // slows its clients down and refuses nothing.
+  // Requests that all streams together may read ahead: fewer than the commit queue holds, so that
+  // an overloaded server slows its clients down and refuses nothing.
   static constexpr std::size_t kReadAheadOfAll = 24576;
 
   void PostEnd(const absl::Status& status) {
@@ -223,7 +223,7 @@ class BidiStream : public grpc::ServerBidiReactor<Request, Response>,
   void WriteNext() HOMING_REQUIRES(mutex_) {
     if (!writing_ && !writes_.empty() && !finished_) {
       writing_ = true;
-      // Answers that wait leave together: a commit makes many.
+      // Let gRPC send waiting answers in one packet: a commit makes many of them.
       grpc::WriteOptions options;
       if (writes_.size() > 1) {
         options.set_buffer_hint();
@@ -259,12 +259,12 @@ class BidiStream : public grpc::ServerBidiReactor<Request, Response>,
 
   Mutex mutex_;
   std::shared_ptr<Request> incoming_ HOMING_GUARDED_BY(mutex_);
-  // Lists: an empty deque takes 600 bytes, and there are many streams.
+  // Lists and not deques: an empty deque takes 600 bytes, and there are many streams.
   std::list<Response> writes_ HOMING_GUARDED_BY(mutex_);
   // At most one answer, sent and cleared, whose memory is reused.
   std::list<Response> spare_ HOMING_GUARDED_BY(mutex_);
   ReadWindow window_ HOMING_GUARDED_BY(mutex_);
-  // Its NoteWait is called with mutex_ held.
+  // Call NoteWait with mutex_ held.
   InlinePolicy policy_;
   std::optional<absl::Status> end_status_ HOMING_GUARDED_BY(mutex_);
   std::chrono::steady_clock::time_point read_begin_ HOMING_GUARDED_BY(mutex_);

@@ -1,4 +1,4 @@
-// A method whose answer is a file in chunks.
+// A streaming method that answers with a file in chunks.
 #ifndef SERVER_RPC_CHUNK_STREAM_H_
 #define SERVER_RPC_CHUNK_STREAM_H_
 

@@ -1,6 +1,5 @@
 #include "server/rpc/incoming_call.h"
 
-#include <google/protobuf/descriptor.h>
 #include <grpc/grpc_security_constants.h>
 #include <grpcpp/security/auth_context.h>
 #include <spdlog/spdlog.h>
@@ -9,7 +8,6 @@
 
 #include "absl/strings/escaping.h"
 #include "absl/strings/str_cat.h"
-#include "absl/strings/str_replace.h"
 #include "homing/base/mutex.h"
 #include "homing/base/status_macros.h"
 #include "server/base/error_reason.h"
@@ -19,14 +17,8 @@
 namespace homing::server {
 namespace {
 
-// Of a resource in the log.
+// Bytes of a resource's name in the log.
 constexpr std::size_t kMaxShown = 200;
-
-const google::protobuf::Descriptor* RequestOf(Rpc rpc) {
-  const std::string method = absl::StrReplaceAll(std::string(TraitsOf(rpc).method), {{"/", "."}});
-  const auto* found = google::protobuf::DescriptorPool::generated_pool()->FindMethodByName(method);
-  return found == nullptr ? nullptr : found->input_type();
-}
 
 std::string TextOf(const grpc::string_ref& text) { return std::string(text.data(), text.size()); }
 
@@ -177,7 +169,7 @@ grpc::Status IncomingCall::Finish(const absl::Status& status) {
     }
     place_.Leave();
   }
-  return ToGrpcStatus(status, absl::IsInvalidArgument(status) ? RequestOf(rpc_) : nullptr);
+  return ToGrpcStatus(status);
 }
 
 }  // namespace homing::server

@@ -63,13 +63,13 @@ class IncomingCall {
   Caller caller_;
   // The robot whose limits apply: the caller, or, without credentials, the robot named.
   std::string robot_;
-  // As robot_. A call that names no robot has a key that no other call has: robots that localise on
-  // a wildcard do not use up each other's rate.
+  // The key of the robot's rate limit: robot_. A call that names no robot has a key that no other
+  // call has: robots that localise on a wildcard do not use up each other's rate.
   std::string rate_key_;
   std::atomic<bool> finished_ = false;
 
   Mutex mutex_;
-  // For the log.
+  // The resource, for the log.
   std::string resource_ HOMING_GUARDED_BY(mutex_);
   bool is_stream_ HOMING_GUARDED_BY(mutex_) = false;
   StreamLimiter::Place place_ HOMING_GUARDED_BY(mutex_);

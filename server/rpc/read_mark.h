@@ -1,4 +1,4 @@
-// Tells a message that cannot be decoded from the end of a stream: gRPC reports both alike.
+// Distinguishes a message that cannot be decoded from the end of a stream: gRPC reports both alike.
 #ifndef SERVER_RPC_READ_MARK_H_
 #define SERVER_RPC_READ_MARK_H_
 

@@ -12,7 +12,6 @@
 #include "google/rpc/error_details.pb.h"
 #include "homing/base/field_error.h"
 #include "server/base/error_reason.h"
-#include "server/rpc/field_path.h"
 
 namespace homing::server {
 namespace {
@@ -60,20 +59,17 @@ void AddRetryInfo(const absl::Status& status, google::rpc::Status* details) {
   details->add_details()->PackFrom(retry);
 }
 
-void AddBadRequest(const absl::Status& status, const google::protobuf::Descriptor* request,
-                   google::rpc::Status* details) {
+void AddBadRequest(const absl::Status& status, google::rpc::Status* details) {
   google::rpc::BadRequest bad;
   auto* violation = bad.add_field_violations();
-  std::string field = request == nullptr ? "" : FieldPath(details->message(), *request);
-  if (field.empty()) field = FieldOf(status).value_or("");
-  violation->set_field(field);
+  violation->set_field(FieldOf(status).value_or(""));
   violation->set_description(details->message());
   details->add_details()->PackFrom(bad);
 }
 
 }  // namespace
 
-grpc::Status ToGrpcStatus(const absl::Status& status, const google::protobuf::Descriptor* request) {
+grpc::Status ToGrpcStatus(const absl::Status& status) {
   if (status.ok()) {
     return grpc::Status::OK;
   }
@@ -85,7 +81,7 @@ grpc::Status ToGrpcStatus(const absl::Status& status, const google::protobuf::De
     AddRetryInfo(status, &details);
   }
   if (absl::IsInvalidArgument(status)) {
-    AddBadRequest(status, request, &details);
+    AddBadRequest(status, &details);
   }
   return {static_cast<grpc::StatusCode>(status.code()), details.message(),
           details.SerializeAsString()};

@@ -2,7 +2,6 @@
 #ifndef SERVER_RPC_STATUS_CONVERSION_H_
 #define SERVER_RPC_STATUS_CONVERSION_H_
 
-#include <google/protobuf/descriptor.h>
 #include <grpcpp/support/status.h>
 
 #include <functional>
@@ -12,11 +11,9 @@
 namespace homing::server {
 
 // Adds google.rpc details: ErrorInfo always (domain "homing"), RetryInfo for RESOURCE_EXHAUSTED and
-// UNAVAILABLE, BadRequest for INVALID_ARGUMENT (with the path in `request` of the field that the
-// message names, or the field of homing::FieldError). The messages of INTERNAL and UNKNOWN go to
-// the server's log only. Messages are cut at 1000 bytes.
-grpc::Status ToGrpcStatus(const absl::Status& status,
-                          const google::protobuf::Descriptor* request = nullptr);
+// UNAVAILABLE, BadRequest for INVALID_ARGUMENT (with the field of homing::FieldError). The messages
+// of INTERNAL and UNKNOWN go to the server's log only. Messages are cut at 1000 bytes.
+grpc::Status ToGrpcStatus(const absl::Status& status);
 
 // The result of `call`; INTERNAL or RESOURCE_EXHAUSTED (memory) if it throws.
 absl::Status Guarded(const std::function<absl::Status()>& call);

@@ -33,8 +33,8 @@ class StreamRegistry {
   void Tick();
   // Waits until every stream was removed.
   void AwaitNone();
-  // The part of `all` for each open stream: at least 1, at most `most`. Takes no lock, so that each
-  // message may call it.
+  // `all` divided by the number of open streams: at least 1, at most `most`. Takes no lock, so that
+  // each message may call it.
   std::size_t ShareOf(std::size_t all, std::size_t most) const;
 
  private:

@@ -28,7 +28,7 @@ absl::StatusOr<JourneySettings> DecodeSettings(const v1::JourneySettings& messag
   const auto model = models->Get(settings.deviation_model_name);
   HOMING_RETURN_IF_ERROR(Within("journey.settings.deviation_model", model.status()));
   settings.deviation_model = model->model;
-  HOMING_RETURN_IF_ERROR(Validate(settings));
+  HOMING_RETURN_IF_ERROR(Within("journey.settings", Validate(settings)));
   return settings;
 }
 

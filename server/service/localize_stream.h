@@ -25,7 +25,7 @@ class LocalizeStream final : public BidiStream<v1::LocalizeRequest, v1::Localize
  private:
   absl::Status Begin(const v1::LocalizeConfig& config);
   absl::Status Localize(const v1::Observation& observation);
-  // To those that watch the fleet.
+  // Reports the answer to the watchers of the fleet.
   void Report(const v1::LocalizeResponse& answer, int journey);
 
   std::unique_ptr<LocalizationSession> session_;

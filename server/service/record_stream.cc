@@ -2,7 +2,6 @@
 
 #include <utility>
 
-#include "absl/strings/str_cat.h"
 #include "homing/base/field_error.h"
 #include "homing/base/range_check.h"
 #include "homing/base/status_macros.h"
@@ -70,8 +69,7 @@ absl::Status RecordStream::Record(const v1::Observation& observation) {
   if (decoded.ok()) {
     session_->Record(*decoded, core()->options.clock());
   } else {
-    session_->Reject(
-        Within(absl::StrCat("observation[", observation.sequence(), "]"), decoded.status()));
+    session_->Reject(decoded.status());
   }
   return absl::OkStatus();
 }

@@ -34,21 +34,21 @@ absl::Status CheckFingerprints(const SeenFingerprints& seen) {
   return absl::OkStatus();
 }
 
-// Sizes of the views' images; a pair of frames has the size of its first one.
+// The sizes of the views' images; of a pair of frames, the size of the first.
 absl::StatusOr<QueryRobot> MeasureRobot(const LandmarkQuery& query, const DecodeLimits& limits) {
   QueryRobot robot;
   robot.travel = query.travel;
   for (std::size_t side = 0; side < query.views.size(); ++side) {
     if (const auto* pair = std::get_if<FramePair>(&query.views[side])) {
       const auto image = DecodeGray(pair->first, limits);
-      HOMING_RETURN_IF_ERROR(Within(absl::StrCat(NameOf(side), ".first"), image.status()));
+      HOMING_RETURN_IF_ERROR(Within(absl::StrCat(NameOf(side), ".frames.first"), image.status()));
       robot.widths[side] = image->cols;
       robot.heights[side] = image->rows;
     } else if (const auto* flow = std::get_if<FlowField>(&query.views[side])) {
       robot.widths[side] = flow->width;
       robot.heights[side] = flow->height;
     } else if (const auto* seen = std::get_if<SeenFingerprints>(&query.views[side])) {
-      HOMING_RETURN_IF_ERROR(CheckFingerprints(*seen));
+      HOMING_RETURN_IF_ERROR(Within(NameOf(side), CheckFingerprints(*seen)));
       robot.widths[side] = seen->width;
       robot.heights[side] = seen->height;
     }
@@ -56,18 +56,18 @@ absl::StatusOr<QueryRobot> MeasureRobot(const LandmarkQuery& query, const Decode
   return robot;
 }
 
-// Raw flow of one camera (II-B) as the left one's; none for fingerprints and for an absent camera.
-absl::StatusOr<ObservedFlow> FlowOf(const QueryView& view, const FlowOptions& options,
-                                    const DecodeLimits& limits) {
+// The raw flow of one camera (II-B); none for fingerprints and for an absent camera.
+absl::StatusOr<ObservedFlow> FlowOf(const QueryView& view, std::size_t side,
+                                    const FlowOptions& options, const DecodeLimits& limits) {
   ObservationFlow tracker(options, limits);
   Observation observation;
   if (const auto* pair = std::get_if<FramePair>(&view)) {
-    observation.views[0] = pair->first;
+    observation.views[side] = pair->first;
     HOMING_RETURN_IF_ERROR(tracker.Compute(observation).status());
-    observation.views[0] = pair->second;
+    observation.views[side] = pair->second;
     observation.sequence = 1;
   } else if (const auto* flow = std::get_if<FlowField>(&view)) {
-    observation.views[0] = *flow;
+    observation.views[side] = *flow;
   } else {
     return ObservedFlow();
   }
@@ -79,17 +79,17 @@ struct SeenNow {
   SeenSides sides;
 };
 
-// Views to flow to motion to landmarks, by side of the route.
+// Computes flow, motion and landmarks of the views, by side of the route.
 absl::StatusOr<SeenNow> See(const LandmarkQuery& query, const LocalizerOptions& options,
                             const DecodeLimits& limits) {
   SeenNow now;
   ObservedFlow flow;
   for (std::size_t side = 0; side < query.views.size(); ++side) {
-    const auto raw = FlowOf(query.views[side], options.flow, limits);
-    HOMING_RETURN_IF_ERROR(Within(NameOf(side), raw.status()));
-    if (raw->fields[0]) {
-      flow.fields[side] = Rectify(*raw->fields[0], options.cameras[side]);
-      flow.makes_step = flow.makes_step || raw->makes_step;
+    HOMING_ASSIGN_OR_RETURN(const ObservedFlow raw,
+                            FlowOf(query.views[side], side, options.flow, limits));
+    if (raw.fields[side]) {
+      flow.fields[side] = Rectify(*raw.fields[side], options.cameras[side]);
+      flow.makes_step = flow.makes_step || raw.makes_step;
     }
   }
   if (flow.fields[0] || flow.fields[1]) {

@@ -12,7 +12,7 @@
 namespace homing::server {
 namespace {
 
-// Size of one camera's image; a compressed frame without a size is decoded for it.
+// Sets the size of one camera's image. Decodes the frame, since a compressed one may give no size.
 absl::Status MeasureView(const CameraView& view, const DecodeLimits& limits, int* width,
                          int* height) {
   if (const auto* flow = std::get_if<FlowField>(&view)) {
@@ -47,10 +47,13 @@ absl::StatusOr<std::unique_ptr<LocalizationSession>> LocalizationSession::Open(
     JourneyCatalog* catalog, const HomingQuery& query, const DecodeLimits& limits) {
   HOMING_ASSIGN_OR_RETURN(JourneyName pattern,
                           ParseJourneyPattern(query.journey, "config.journey"));
-  HOMING_RETURN_IF_ERROR(Validate(query.match));
-  HOMING_RETURN_IF_ERROR(Validate(query.position));
-  for (const std::optional<Camera>& camera : query.cameras) {
-    HOMING_RETURN_IF_ERROR(camera ? Validate(*camera) : absl::OkStatus());
+  HOMING_RETURN_IF_ERROR(Within("config", Validate(query.match)));
+  HOMING_RETURN_IF_ERROR(Within("config", Validate(query.position)));
+  for (std::size_t side = 0; side < query.cameras.size(); ++side) {
+    if (query.cameras[side]) {
+      HOMING_RETURN_IF_ERROR(Within(side == 0 ? "config.left_camera" : "config.right_camera",
+                                    Validate(*query.cameras[side])));
+    }
   }
   std::unique_ptr<LocalizationSession> session(
       new LocalizationSession(catalog, query, std::move(pattern), limits));
@@ -75,7 +78,7 @@ absl::Status LocalizationSession::Start(const Observation& observation) {
   QueryRobot robot = RobotOf(query_);
   for (std::size_t side = 0; side < observation.views.size(); ++side) {
     HOMING_RETURN_IF_ERROR(Within(
-        side == 0 ? "left" : "right",
+        side == 0 ? "observation.left" : "observation.right",
         MeasureView(observation.views[side], limits_, &robot.widths[side], &robot.heights[side])));
   }
   HOMING_ASSIGN_OR_RETURN(JourneySelection selection, SelectJourneys(journeys_, pattern_, robot));
@@ -88,7 +91,7 @@ absl::Status LocalizationSession::Start(const Observation& observation) {
   return absl::OkStatus();
 }
 
-// A journey that is not among those chosen says nothing.
+// A prior on a journey that was not selected is ignored.
 absl::Status LocalizationSession::StartAt(const LocalizationPrior& prior) {
   for (std::size_t i = 0; i < journeys_.size(); ++i) {
     if (journeys_[i]->name() != prior.journey) continue;
@@ -112,8 +115,8 @@ absl::StatusOr<Localization> LocalizationSession::Localize(const Observation& ob
     HOMING_RETURN_IF_ERROR(StartAt(*query_.prior));
   }
   started_ = true;
-  HOMING_ASSIGN_OR_RETURN(Localization result,
-                          localizer_->Localize(observation, RefsOf(journeys_)));
+  absl::StatusOr<Localization> result = localizer_->Localize(observation, RefsOf(journeys_));
+  if (!result.ok()) return Within("observation", result.status());
   due_ = observation.sequence + 1;
   return result;
 }

@@ -58,7 +58,7 @@ class LocalizationSession {
   // Empty before the first observation.
   Belief BeliefOn(int journey, std::size_t most) const;
 
-  // Of the journey that a Localization numbers.
+  // The name of the journey with this number in a Localization.
   const std::string& journey_name(int index) const {
     return journeys_[static_cast<std::size_t>(index)]->name();
   }

@@ -15,10 +15,6 @@
 namespace homing::server {
 namespace {
 
-std::string KindName(InputKind kind) {
-  return kind == InputKind::kFrames ? "frames" : "flow vectors";
-}
-
 // The part of the settings that an observation may change.
 std::array<int, 4> ImageSizes(const JourneySettings& settings) {
   const auto& [left, right] = settings.cameras;
@@ -82,7 +78,7 @@ void RecordingSession::Record(const Observation& observation, TimePoint now) {
 
 void RecordingSession::Reject(const absl::Status& status) { Complete(OpenSlot(), status, {}); }
 
-// Check the sequence, make the step, submit it; the commit sends the answer.
+// Checks the sequence, makes the step and submits it; the commit sends the answer.
 absl::Status RecordingSession::Process(const Observation& observation, TimePoint now,
                                        std::int64_t slot) {
   HOMING_RETURN_IF_ERROR(claim_.journey->Renew(claim_.claim, now));
@@ -99,9 +95,9 @@ absl::Status RecordingSession::Process(const Observation& observation, TimePoint
   const auto sizes = ImageSizes(recorder_->settings());
   auto step = recorder_->Record(observation);
   if (!step.ok()) {
-    return Within(absl::StrCat("observation[", sequence, "]"), step.status());
+    return Within("observation", step.status());
   }
-  // The reference is all that tracking needs of what is durable.
+  // Of the durable observations, tracking needs the reference only.
   due_ = std::max(sequence + 1, next_);
   if (sequence < next_) {
     Complete(slot, absl::OkStatus(), std::move(answer));
@@ -128,14 +124,15 @@ absl::Status RecordingSession::CheckDue(const Observation& observation) const {
 }
 
 absl::Status RecordingSession::CheckKind(const Observation& observation) {
-  HOMING_ASSIGN_OR_RETURN(const InputKind kind, InputKindOf(observation));
-  if (kind_ != InputKind::kUnknown && kind != kind_) {
-    return WithReason(absl::FailedPreconditionError(absl::StrCat(
-                          "observation: ", KindName(kind), " must be ", KindName(kind_),
-                          ", as the journey is recorded with ", KindName(kind_))),
+  const absl::StatusOr<InputKind> kind = InputKindOf(observation);
+  if (!kind.ok()) return Within("observation", kind.status());
+  if (kind_ != InputKind::kUnknown && *kind != kind_) {
+    return WithReason(absl::FailedPreconditionError(
+                          absl::StrCat("observation: ", NameOf(*kind), " must be ", NameOf(kind_),
+                                       ", as the journey is recorded with ", NameOf(kind_))),
                       {"OTHER_INPUT", {}});
   }
-  kind_ = kind;
+  kind_ = *kind;
   return absl::OkStatus();
 }
 

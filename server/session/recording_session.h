@@ -27,9 +27,9 @@ struct RecordingAnswer {
   // What to send again after a broken link, before next_sequence: for frames, the reference.
   std::int64_t resend_from = 0;
   std::optional<JourneyStep> step;
-  // It was compared with the reference and made no step.
+  // The observation was compared with the reference and made no step.
   bool is_standing = false;
-  // Of the observation; in the first answer, of the last step, if there is one.
+  // The frame of the observation; in the first answer, of the last step, if there is one.
   std::optional<std::int64_t> frame;
 };
 
@@ -50,7 +50,7 @@ struct RecordingContext {
 // The client numbers its observations. A committed one is accepted again and stores nothing; the
 // reference frame, `resend_from`, rebuilds the tracker's state. A gap is OUT_OF_RANGE with the
 // expected number. With frames, a stream that starts at next_sequence without the reference has a
-// gap, unless the observation is marked as a break. The ones between the two made no step, so they
+// gap, unless the observation is marked as a break. The observations in between made no step and
 // need not be sent again. One thread at a time may call Record.
 class RecordingSession : public std::enable_shared_from_this<RecordingSession> {
  public:
@@ -66,7 +66,7 @@ class RecordingSession : public std::enable_shared_from_this<RecordingSession> {
   RecordingSession(const RecordingSession&) = delete;
   RecordingSession& operator=(const RecordingSession&) = delete;
 
-  // Leads to one answer or the end, after the answers to earlier observations.
+  // Each call leads to one answer or to the end, after the answers to earlier observations.
   void Record(const Observation& observation, TimePoint now);
   // Ends the session with `status` after the answers to the observations before.
   void Reject(const absl::Status& status);
@@ -104,7 +104,7 @@ class RecordingSession : public std::enable_shared_from_this<RecordingSession> {
   // Answers in the order of the observations. An answer to a repeat waits for earlier commits.
   std::deque<Slot> slots_ HOMING_GUARDED_BY(mutex_);
   std::int64_t first_slot_ HOMING_GUARDED_BY(mutex_) = 0;
-  // As in the last answer sent.
+  // The values of the last answer sent.
   std::int64_t durable_next_ HOMING_GUARDED_BY(mutex_) = 0;
   std::int64_t durable_resend_from_ HOMING_GUARDED_BY(mutex_) = 0;
   bool ended_ HOMING_GUARDED_BY(mutex_) = false;

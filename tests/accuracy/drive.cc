@@ -7,9 +7,9 @@
 #include <opencv2/imgproc.hpp>
 
 #include "absl/strings/str_cat.h"
-#include "client/image_folder.h"
 #include "client/simulator/frame_schedule.h"
 #include "client/simulator/simulation_spec.h"
+#include "client/source/image_folder.h"
 #include "homing/image/frame.h"
 #include "tests/accuracy/drive_cache.h"
 

@@ -7,10 +7,10 @@
 #include <memory>
 
 #include "absl/strings/str_cat.h"
-#include "client/drive/projected_eyes.h"
 #include "client/simulator/seeded_random.h"
 #include "client/simulator/simulation_spec.h"
 #include "tests/drive/local_localizer.h"
+#include "tests/drive/projected_eyes.h"
 
 namespace homing::drive {
 namespace {

@@ -4,9 +4,9 @@
 
 #include <cmath>
 
-#include "client/drive/projected_eyes.h"
 #include "client/simulator/simulation_spec.h"
 #include "tests/drive/local_localizer.h"
+#include "tests/drive/projected_eyes.h"
 
 namespace homing::client {
 namespace {

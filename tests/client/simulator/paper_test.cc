@@ -9,11 +9,11 @@
 #include <string>
 #include <vector>
 
-#include "client/simulator/paper_scenes.h"
 #include "homing/flow/camera.h"
 #include "homing/flow/flow_tracker.h"
 #include "homing/landmark/landmark_finder.h"
 #include "homing/similarity/similarity.h"
+#include "tests/client/simulator/paper_scenes.h"
 #include "tests/support/status_matchers.h"
 
 namespace homing::client {

@@ -150,20 +150,20 @@ TEST_P(BadCameraTest, IsNamed) {
   ASSERT_THAT(Validate(camera), IsOk());
   GetParam().spoil(camera);
   EXPECT_THAT(Validate(camera), StatusIs(absl::StatusCode::kInvalidArgument,
-                                         HasSubstr("camera." + GetParam().field)));
+                                         ::testing::StartsWith(GetParam().field + ": ")));
 }
 
 INSTANTIATE_TEST_SUITE_P(
     All, BadCameraTest,
     ::testing::Values(BadCamera{"width", [](Camera& c) { c.width = -1; }},
                       BadCamera{"height", [](Camera& c) { c.height = 1 << 20; }},
-                      BadCamera{"width 0", [](Camera& c) { c.width = 0; }},
+                      BadCamera{"width", [](Camera& c) { c.width = 0; }},
                       BadCamera{"focal_x", [](Camera& c) { c.intrinsics->focal_x = 0; }},
                       BadCamera{"focal_y", [](Camera& c) { c.intrinsics->focal_y = std::nan(""); }},
                       BadCamera{"center_x", [](Camera& c) { c.intrinsics->center_x = 1e300; }},
                       BadCamera{"distortion", [](Camera& c) { c.distortion[4] = std::nan(""); }},
                       BadCamera{"yaw_rad", [](Camera& c) { c.yaw_rad = 1.5708; }},
-                      BadCamera{"distortion and camera.yaw_rad",
+                      BadCamera{"focal_x",
                                 [](Camera& c) {
                                   c.intrinsics.reset();
                                   c.yaw_rad = 0.1;

@@ -173,7 +173,7 @@ TEST_P(BadFlowOptionTest, IsNamed) {
   ASSERT_THAT(Validate(options), IsOk());
   GetParam().spoil(options);
   EXPECT_THAT(Validate(options),
-              StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("flow." + GetParam().name)));
+              StatusIs(absl::StatusCode::kInvalidArgument, ::testing::StartsWith(GetParam().name)));
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -187,7 +187,7 @@ INSTANTIATE_TEST_SUITE_P(
                                 [](FlowOptions& o) { o.normalization_floor = 0; }},
                       BadOption{"min_eigenvalue", [](FlowOptions& o) { o.min_eigenvalue = 0; }},
                       BadOption{"cell_px", [](FlowOptions& o) { o.cell_px = 0; }},
-                      BadOption{"cell_px 1 must be at least 5",
+                      BadOption{"cell_px: 1 must be at least 5",
                                 [](FlowOptions& o) {
                                   o.working_width_px = 2048;
                                   o.cell_px = 1;

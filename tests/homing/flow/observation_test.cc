@@ -220,7 +220,7 @@ TEST(ObservationFlowTest, AChangedSizeIsRefusedEvenAfterABreak) {
 TEST(ObservationFlowTest, NoCameraAtAllIsRefused) {
   ObservationFlow flow({});
   EXPECT_THAT(flow.Compute({}), StatusIs(absl::StatusCode::kInvalidArgument,
-                                         HasSubstr("neither a left nor a right view")));
+                                         HasSubstr("left: must be set unless right is")));
 }
 
 Observation OfVectors(FlowField field) {
@@ -266,12 +266,13 @@ constexpr float kInfinite = std::numeric_limits<float>::infinity();
 INSTANTIATE_TEST_SUITE_P(
     All, BadFieldTest,
     ::testing::Values(
-        BadField{{160, 120, {{1, 2, 3, 4}, {1, kNan, 3, 4}}}, "left: flow_vectors[1] "},
-        BadField{{160, 120, {{1, 2, kInfinite, 4}}}, "flow_vectors[0] "},
-        BadField{{160, 120, {{1, 2, 3, -kInfinite}}}, "flow_vectors[0] "},
-        BadField{{160, 120, {{1, 2, 1e6F, 4}}}, "flow_vectors[0] "},
-        BadField{{0, 120, {}}, "0 x 120 px"}, BadField{{160, 1 << 30, {}}, "[16, 8192] px"},
-        BadField{{160, 120, std::vector<FlowVector>(100001)}, "the limit is 100000"}));
+        BadField{{160, 120, {{1, 2, 3, 4}, {1, kNan, 3, 4}}}, "left.flow_vectors[1]: "},
+        BadField{{160, 120, {{1, 2, kInfinite, 4}}}, "flow_vectors[0]: "},
+        BadField{{160, 120, {{1, 2, 3, -kInfinite}}}, "flow_vectors[0]: "},
+        BadField{{160, 120, {{1, 2, 1e6F, 4}}}, "flow_vectors[0]: "},
+        BadField{{0, 120, {}}, "left.flow_vectors.width: 0 must be"},
+        BadField{{160, 1 << 30, {}}, "[16, 8192] px"},
+        BadField{{160, 120, std::vector<FlowVector>(100001)}, "at most 100000 vectors"}));
 
 }  // namespace
 }  // namespace homing

@@ -89,7 +89,7 @@ TEST(JourneyMapTest, RefusesASequenceThatLeavesNoneForTheStepsBetween) {
   JourneyStep step = StepOf(2, {});
   step.sequence = 1;
   EXPECT_THAT(map.Append(step), StatusIs(absl::StatusCode::kInvalidArgument,
-                                         HasSubstr("sequence of step 2 is 1, must be at least 2")));
+                                         HasSubstr("sequence of step 2: 1 must be at least 2")));
   EXPECT_EQ(map.step_count(), 0);
   step.sequence = 2;
   ASSERT_THAT(map.Append(step), IsOk());
@@ -101,9 +101,9 @@ TEST(JourneyMapTest, RefusesASequenceThatLeavesNoneForTheStepsBetween) {
 
 TEST(JourneyMapTest, RefusesALandmarkThatIsNeitherKnownNorNext) {
   EXPECT_THAT(Refusal(StepOf(1, {Seen(Side::kLeft, 2)})),
-              StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("landmark is 2")));
+              StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("landmark: 2 must be")));
   EXPECT_THAT(Refusal(StepOf(1, {Seen(Side::kLeft, -1)})),
-              StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("landmark is -1")));
+              StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("landmark: -1 must be")));
   EXPECT_THAT(Refusal(StepOf(1, {Seen(Side::kLeft, 1), Seen(Side::kLeft, 1)})),
               StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("twice")));
 }
@@ -115,17 +115,17 @@ TEST(JourneyMapTest, RefusesALandmarkOnTheOtherSide) {
 
 TEST(JourneyMapTest, RefusesSidesOutOfOrderAndTooManyOnOne) {
   EXPECT_THAT(Refusal(StepOf(1, {Seen(Side::kRight, 1), Seen(Side::kLeft, 0)})),
-              StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("right before left")));
+              StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("left before right")));
   EXPECT_THAT(
       Refusal(StepOf(1, {Seen(Side::kLeft, 0), Seen(Side::kLeft, 1), Seen(Side::kLeft, 2)})),
-      StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("over 2 on one side")));
+      StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("at most 2 on one side")));
 }
 
 TEST(JourneyMapTest, RefusesValuesThatAreNoFingerprint) {
   RecordedFingerprint seen = Seen(Side::kLeft, 0);
   seen.fingerprint.count = 0;
-  EXPECT_THAT(Refusal(StepOf(1, {seen})),
-              StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("count of landmark 0 is 0")));
+  EXPECT_THAT(Refusal(StepOf(1, {seen})), StatusIs(absl::StatusCode::kInvalidArgument,
+                                                   HasSubstr("count of landmark 0: 0 must be")));
   seen = Seen(Side::kLeft, 0);
   seen.fingerprint.y = std::numeric_limits<float>::infinity();
   EXPECT_THAT(Refusal(StepOf(1, {seen})),

@@ -59,13 +59,14 @@ void ExpectSame(const JourneyMap& a, const JourneyMap& b) {
 
 TEST(InputKindTest, IsThatOfTheViews) {
   Observation observation;
-  EXPECT_THAT(InputKindOf(observation),
-              StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("no camera")));
+  EXPECT_THAT(InputKindOf(observation), StatusIs(absl::StatusCode::kInvalidArgument,
+                                                 HasSubstr("left: must be set unless right is")));
   observation.views[1] = FlowField{};
   EXPECT_EQ(InputKindOf(observation).value(), InputKind::kFlowVectors);
   observation.views[0] = Frame{};
   EXPECT_THAT(InputKindOf(observation),
-              StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("must have one kind")));
+              StatusIs(absl::StatusCode::kInvalidArgument,
+                       HasSubstr("right: must be frames or flow vectors, as left is")));
   observation.views[1] = std::monostate{};
   EXPECT_EQ(InputKindOf(observation).value(), InputKind::kFrames);
 }
@@ -98,7 +99,7 @@ TEST(JourneyRecorderTest, AStepOfFlowVectorsKeepsTheFrameThatTheClientNames) {
   EXPECT_EQ(recorder.Record(robot.observations()[1]).value()->sequence, 9);
   EXPECT_EQ(recorder.resend_from(), 2);
   EXPECT_THAT(recorder.Record(robot.observations()[2]),
-              StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("frame is 9, must be over")));
+              StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("frame: 9 must be over")));
 }
 
 TEST(JourneyRecorderTest, RecordsLandmarksOfBothSides) {
@@ -250,7 +251,7 @@ TEST(JourneyRecorderTest, RefusesAnotherKindThanTheFirst) {
   Observation vectors = TravellingRobot::WithFlowVectors(2, 2).observations()[1];
   EXPECT_THAT(recorder.Record(vectors),
               StatusIs(absl::StatusCode::kInvalidArgument,
-                       HasSubstr("flow vectors, must have the journey's frames")));
+                       HasSubstr("flow vectors must be frames, as before")));
 }
 
 }  // namespace

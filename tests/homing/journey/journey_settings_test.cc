@@ -31,7 +31,7 @@ TEST(JourneySettingsTest, NamesAModelThatIsNoResource) {
   JourneySettings settings;
   settings.deviation_model_name = "mine";
   EXPECT_THAT(Validate(settings),
-              StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("'mine'")));
+              StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("\"mine\"")));
 }
 
 }  // namespace

@@ -28,7 +28,7 @@ TEST(LandmarkTrackerTest, ALandmarkThatMovesAsItsFlowSaysStaysTheSame) {
   LandmarkTracker tracker({});
   for (int step = 0; step < 10; ++step) {
     // 40 px a step is over the gate: only the flow explains it.
-    const auto counted = tracker.Count(step, Side::kLeft, {Seen(20 + 40 * step, 40)});
+    const auto counted = tracker.Associate(step, Side::kLeft, {Seen(20 + 40 * step, 40)});
     EXPECT_THAT(Numbers(counted), ElementsAre(0));
   }
   EXPECT_EQ(tracker.landmark_count(), 1);
@@ -36,55 +36,55 @@ TEST(LandmarkTrackerTest, ALandmarkThatMovesAsItsFlowSaysStaysTheSame) {
 
 TEST(LandmarkTrackerTest, FingerprintsKeepMeanAndNumber) {
   LandmarkTracker tracker({});
-  const auto counted = tracker.Count(0, Side::kRight, {Seen(70.25)});
+  const auto counted = tracker.Associate(0, Side::kRight, {Seen(70.25)});
   ASSERT_EQ(counted.size(), 1U);
   EXPECT_EQ(counted[0], (Fingerprint{70.25F, 100, 30, 0}));
 }
 
 TEST(LandmarkTrackerTest, AJumpBeyondTheGateIsANewLandmark) {
   LandmarkTracker tracker({});
-  tracker.Count(0, Side::kLeft, {Seen(100)});
-  EXPECT_THAT(Numbers(tracker.Count(1, Side::kLeft, {Seen(105 + 19.9)})), ElementsAre(0));
-  EXPECT_THAT(Numbers(tracker.Count(2, Side::kLeft, {Seen(129.9 + 20.2)})), ElementsAre(1));
+  tracker.Associate(0, Side::kLeft, {Seen(100)});
+  EXPECT_THAT(Numbers(tracker.Associate(1, Side::kLeft, {Seen(105 + 19.9)})), ElementsAre(0));
+  EXPECT_THAT(Numbers(tracker.Associate(2, Side::kLeft, {Seen(129.9 + 20.2)})), ElementsAre(1));
 }
 
 TEST(LandmarkTrackerTest, NewLandmarksAreNumberedInTheOrderMet) {
   LandmarkTracker tracker({});
-  EXPECT_THAT(Numbers(tracker.Count(0, Side::kLeft, {Seen(50), Seen(250)})), ElementsAre(0, 1));
-  EXPECT_THAT(Numbers(tracker.Count(0, Side::kRight, {Seen(50)})), ElementsAre(2));
+  EXPECT_THAT(Numbers(tracker.Associate(0, Side::kLeft, {Seen(50), Seen(250)})), ElementsAre(0, 1));
+  EXPECT_THAT(Numbers(tracker.Associate(0, Side::kRight, {Seen(50)})), ElementsAre(2));
   // The one at 250 has left, another has come in at the low end.
-  EXPECT_THAT(Numbers(tracker.Count(1, Side::kLeft, {Seen(10), Seen(55)})), ElementsAre(3, 0));
+  EXPECT_THAT(Numbers(tracker.Associate(1, Side::kLeft, {Seen(10), Seen(55)})), ElementsAre(3, 0));
 }
 
 TEST(LandmarkTrackerTest, SidesDoNotMix) {
   LandmarkTracker tracker({});
-  tracker.Count(0, Side::kLeft, {Seen(100)});
-  EXPECT_THAT(Numbers(tracker.Count(1, Side::kRight, {Seen(105)})), ElementsAre(1));
+  tracker.Associate(0, Side::kLeft, {Seen(100)});
+  EXPECT_THAT(Numbers(tracker.Associate(1, Side::kRight, {Seen(105)})), ElementsAre(1));
 }
 
 TEST(LandmarkTrackerTest, NearestPairGoesFirstAndOneToOne) {
   LandmarkTracker tracker({});
-  tracker.Count(0, Side::kLeft, {Seen(100)});
+  tracker.Associate(0, Side::kLeft, {Seen(100)});
   // Both are within the gate of landmark 0; the second is nearer.
-  EXPECT_THAT(Numbers(tracker.Count(1, Side::kLeft, {Seen(95), Seen(107)})), ElementsAre(1, 0));
+  EXPECT_THAT(Numbers(tracker.Associate(1, Side::kLeft, {Seen(95), Seen(107)})), ElementsAre(1, 0));
 }
 
 TEST(LandmarkTrackerTest, AMissingLandmarkComesBackWithinTheGap) {
   LandmarkOptions options;
   options.max_track_gap_steps = 2;
   LandmarkTracker tracker(options);
-  tracker.Count(0, Side::kLeft, {Seen(100, 30)});
-  tracker.Count(1, Side::kLeft, {});
-  tracker.Count(2, Side::kLeft, {});
+  tracker.Associate(0, Side::kLeft, {Seen(100, 30)});
+  tracker.Associate(1, Side::kLeft, {});
+  tracker.Associate(2, Side::kLeft, {});
   // Moved on by three steps of its flow.
-  EXPECT_THAT(Numbers(tracker.Count(3, Side::kLeft, {Seen(190, 30)})), ElementsAre(0));
-  EXPECT_THAT(Numbers(tracker.Count(7, Side::kLeft, {Seen(310, 30)})), ElementsAre(1));
+  EXPECT_THAT(Numbers(tracker.Associate(3, Side::kLeft, {Seen(190, 30)})), ElementsAre(0));
+  EXPECT_THAT(Numbers(tracker.Associate(7, Side::kLeft, {Seen(310, 30)})), ElementsAre(1));
 }
 
 TEST(LandmarkTrackerTest, RestoredCountGoesOn) {
   LandmarkTracker tracker({});
   tracker.set_landmark_count(17);
-  EXPECT_THAT(Numbers(tracker.Count(5, Side::kLeft, {Seen(100)})), ElementsAre(17));
+  EXPECT_THAT(Numbers(tracker.Associate(5, Side::kLeft, {Seen(100)})), ElementsAre(17));
 }
 
 struct Stored {
@@ -120,8 +120,8 @@ TEST(LandmarkTrackerTest, ATrackerRestoredFromStoredFingerprintsCountsAsTheUndis
     restored.set_landmark_count(undisturbed.landmark_count());
     for (const Side side : {Side::kLeft, Side::kRight}) {
       const auto seen = RandomScene(random, step, side);
-      const auto expected = undisturbed.Count(step, side, seen);
-      ASSERT_EQ(restored.Count(step, side, seen), expected);
+      const auto expected = undisturbed.Associate(step, side, seen);
+      ASSERT_EQ(restored.Associate(step, side, seen), expected);
       for (const Fingerprint& f : expected) {
         stored.push_back({step, side, f});
       }

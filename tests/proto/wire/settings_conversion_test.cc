@@ -97,9 +97,14 @@ void ExpectSettingsRefused(Change change, const std::string& why) {
 
 TEST(SettingsConversion, ARefusalNamesItsFieldForPrograms) {
   v1::JourneySettings message = ToProto(OddSettings());
+  const auto field = [&] {
+    return FieldOf(FromProto(message, "settings", JourneySettings()).status());
+  };
   message.mutable_left_camera()->set_yaw_rad(3);
-  const absl::Status status = FromProto(message, "settings", JourneySettings()).status();
-  EXPECT_THAT(FieldOf(status).value_or(""), ::testing::StartsWith("settings.left_camera"));
+  EXPECT_EQ(field(), "settings.left_camera.yaw_rad");
+  message.mutable_left_camera()->set_yaw_rad(0);
+  message.mutable_flow()->set_window_px(16);
+  EXPECT_EQ(field(), "settings.flow.window_px");
 }
 
 TEST(SettingsConversion, RefusesWrongSettingsByName) {
@@ -111,7 +116,7 @@ TEST(SettingsConversion, RefusesWrongSettingsByName) {
                         "settings.left_camera.distortion: 6 must be 0, 4, 5 or 8 entries");
   ExpectSettingsRefused(
       [](v1::JourneySettings& m) { m.mutable_left_camera()->set_distortion(0, NAN); },
-      "settings.left_camera: ");
+      "settings.left_camera.distortion: nan");
   ExpectSettingsRefused([](v1::JourneySettings& m) { m.mutable_left_camera()->set_yaw_rad(3); },
                         "yaw_rad");
   ExpectSettingsRefused([](v1::JourneySettings& m) { m.mutable_right_camera()->set_yaw_rad(0.1); },

@@ -70,6 +70,7 @@ TEST_F(ModelServiceTest, WrongTrainingIsRefused) {
   request.set_model_id("m");
   request.mutable_settings()->set_observations(2'000'000'000);
   EXPECT_THAT(Train(request, &response), GrpcStatusIs(kInvalid, HasSubstr("2000000000")));
+  EXPECT_EQ(BadFieldOf(Train(request, &response)), "settings.observations");
   grpc::ClientContext context;
   v1::GetDeviationModelRequest get;
   get.set_name("deviationModels/none");

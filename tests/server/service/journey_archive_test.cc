@@ -166,7 +166,7 @@ TEST(JourneyArchive, ReadsVersion1WhereEachFrameButTheFirstMadeAStep) {
 
 TEST(JourneyArchive, RefusesSequencesThatDoNotGrow) {
   ExpectRefused(Forge([](v1::JourneyMap& m) { m.set_sequences(4, 14); }),
-                "sequence of step 4 is 14, must be at least 15");
+                "sequence of step 4: 14 must be at least 15");
   ExpectRefused(Forge([](v1::JourneyMap& m) { m.set_sequences(0, -2); }), "sequence of step 0");
 }
 
@@ -192,7 +192,7 @@ TEST(JourneyArchive, RefusesSizesThatDoNotAgree) {
 TEST(JourneyArchive, RefusesContentThatNoMapHas) {
   ExpectRefused(Forge([](v1::JourneyMap& m) { m.set_landmarks(0, 1000); }), "landmarks[0] is 1000");
   ExpectRefused(Forge([](v1::JourneyMap& m) { m.set_landmarks(0, -1); }), "landmarks[0] is -1");
-  ExpectRefused(Forge([](v1::JourneyMap& m) { m.set_landmarks(1, 0); }), "landmark 0");
+  ExpectRefused(Forge([](v1::JourneyMap& m) { m.set_landmarks(1, 0); }), "landmark: 0");
   ExpectRefused(Forge([](v1::JourneyMap& m) { m.set_xs(0, NAN); }), "finite");
   ExpectRefused(Forge([](v1::JourneyMap& m) { m.set_xs(0, -0.0F); }), "xs has -0");
   ExpectRefused(Forge([](v1::JourneyMap& m) { m.set_ys(1, -0.0F); }), "ys has -0");

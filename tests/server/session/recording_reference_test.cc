@@ -111,8 +111,8 @@ TEST_F(RecordingReferenceTest, StepsOfFlowKeepTheFramesThatTheClientNames) {
   Observation late = test::FlowAt(3);
   late.frame = 24;
   resumed->Record(late, {});
-  EXPECT_THAT(again.AwaitEnd(),
-              StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("frame is 24")));
+  EXPECT_THAT(again.AwaitEnd(), StatusIs(absl::StatusCode::kInvalidArgument,
+                                         HasSubstr("observation.frame: 24 must be over 24")));
 }
 
 }  // namespace

@@ -287,7 +287,8 @@ TEST_F(RecordingSessionTest, ABadObservationEndsTheStreamAndTheNextStreamContinu
     Observation empty;
     empty.sequence = 1;
     session->Record(empty, {});
-    EXPECT_THAT(ear.AwaitEnd(), StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("camera")));
+    EXPECT_THAT(ear.AwaitEnd(),
+                StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("observation.left: ")));
   }
   RecordFlow(1, 4);
   EXPECT_EQ(Stored().step_count(), 4);

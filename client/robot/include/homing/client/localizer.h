@@ -54,8 +54,8 @@ struct Answer {
   // Turn beyond what following the outbound path needs, to the robot's left: radians where the
   // focal length is known, else pixels. Unset without two cameras.
   std::optional<double> turn = {};
-  // Metres to the robot's left of the outbound path over the distance of what is seen. Unset
-  // without two cameras.
+  // Metres to the robot's left of the outbound path divided by the distance of the seen objects.
+  // Unset without two cameras.
   std::optional<double> path_offset = {};
   // 1 - the probability of being off every covered route; at least `probability`.
   double on_route = 0;

@@ -1,0 +1,84 @@
+#include "client/source/frame_source.h"
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+
+#include "absl/strings/match.h"
+#include "absl/strings/str_cat.h"
+#include "client/bag/bag_source.h"
+#include "client/source/image_folder.h"
+#include "client/source/image_list.h"
+#include "client/source/image_names.h"
+#include "client/source/opencv_readers.h"
+#include "client/source/simulated_source.h"
+#include "homing/base/status_macros.h"
+
+namespace homing::client {
+namespace {
+
+bool IsFolderOrGlob(const std::string& source) {
+  std::error_code error;
+  if (std::filesystem::is_directory(source, error)) return true;
+  if (std::filesystem::exists(source, error)) return false;
+  return source.find_first_of("*?[") != std::string::npos;
+}
+
+// "0" to "999", unless there is a file of that name.
+bool IsCameraIndex(const std::string& source) {
+  std::error_code error;
+  return source.size() <= 3 &&
+         std::all_of(source.begin(), source.end(),
+                     [](unsigned char c) { return std::isdigit(c) != 0; }) &&
+         !std::filesystem::exists(source, error);
+}
+
+}  // namespace
+
+bool IsNetworkSource(const std::string& source) {
+  for (const char* scheme : {"rtsp://", "rtsps://", "http://", "https://"}) {
+    if (absl::StartsWithIgnoreCase(source, scheme)) return true;
+  }
+  return false;
+}
+
+absl::Status CheckSourceText(const std::string& source) {
+  if (source.empty()) return absl::InvalidArgumentError("SOURCE is empty");
+  if (absl::StartsWith(source, "sim:")) return ParseSimulationSpec(source).status();
+  return absl::OkStatus();
+}
+
+absl::StatusOr<std::unique_ptr<FrameSource>> OpenFrameSource(const std::string& source,
+                                                             Side camera) {
+  HOMING_RETURN_IF_ERROR(CheckSourceText(source));
+  if (absl::StartsWith(source, "sim:")) {
+    HOMING_ASSIGN_OR_RETURN(const SimulationSpec spec, ParseSimulationSpec(source));
+    return MakeSimulatedSource(spec, camera);
+  }
+  if (const auto bag = bag::ParseBagName(source)) return bag::OpenBagSource(*bag, camera);
+  if (IsFolderOrGlob(source)) {
+    HOMING_ASSIGN_OR_RETURN(auto images, ListImages(source));
+    return MakeImageFolder(std::move(images));
+  }
+  std::error_code error;
+  if (IsNetworkSource(source)) {
+    HOMING_ASSIGN_OR_RETURN(const OpenCvReaders* const readers, LoadOpenCvReaders());
+    return readers->open_video(source);
+  }
+  if (IsCameraIndex(source)) return OpenFrameSource("/dev/video" + source, camera);
+  if (!std::filesystem::exists(source, error)) {
+    return absl::NotFoundError(absl::StrCat(source, ": no such file or folder"));
+  }
+  if (std::filesystem::is_regular_file(source, error) && HasImageEnding(source)) {
+    return absl::InvalidArgumentError(
+        absl::StrCat(source, " is one image; give its folder, or a glob of images in quotes"));
+  }
+  if (std::filesystem::is_regular_file(source, error) && HasListEnding(source)) {
+    HOMING_ASSIGN_OR_RETURN(auto images, ReadImageList(source));
+    return MakeImageFolder(std::move(images));
+  }
+  HOMING_ASSIGN_OR_RETURN(const OpenCvReaders* const readers, LoadOpenCvReaders());
+  return readers->open_video(source);
+}
+
+}  // namespace homing::client

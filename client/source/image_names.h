@@ -1,0 +1,35 @@
+// What the names of image files say about their order and time.
+#ifndef CLIENT_SOURCE_IMAGE_NAMES_H_
+#define CLIENT_SOURCE_IMAGE_NAMES_H_
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "client/source/frame_source.h"
+
+namespace homing::client {
+
+// Whether the name ends as image files do that can be read.
+bool HasImageEnding(const std::string& path);
+
+// Nanoseconds: a decimal number is seconds; a whole number of 12 digits and more is milliseconds,
+// microseconds or nanoseconds by its size, a smaller one seconds. std::nullopt: no number.
+std::optional<std::int64_t> ParseTime(const std::string& text);
+
+// Numbers inside names count as numbers: 2.png before 10.png.
+bool NaturalLess(const std::string& a, const std::string& b);
+
+// As decimal numbers (0.05 before 0.1) where each whole name, its ending apart, is one and at least
+// one has a point; else by NaturalLess.
+void SortByName(std::vector<std::string>* paths);
+
+// Of sorted paths. Times: decimal numbers are seconds; whole numbers of 12 digits and more are
+// milliseconds, microseconds or nanoseconds by their size. Else the last number in each name, if it
+// ascends. Else kOrder.
+FrameKeys KeysOfNames(const std::vector<std::string>& paths);
+
+}  // namespace homing::client
+
+#endif  // CLIENT_SOURCE_IMAGE_NAMES_H_
