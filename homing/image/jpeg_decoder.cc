@@ -31,6 +31,7 @@ struct Decoder {
   jpeg_error_mgr errors{};
   jpeg_progress_mgr progress{};
   std::jmp_buf jump{};
+  const Cancellation* cancellation = nullptr;
   char message[JMSG_LENGTH_MAX] = "";
 };
 
@@ -46,8 +47,12 @@ void Warn(j_common_ptr jpeg, int level) {
   if (level < 0 && jpeg->err->msg_code != JWRN_EXTRANEOUS_DATA) Fail(jpeg);
 }
 
-void LimitScans(j_common_ptr jpeg) {
+// Called for each row of blocks of each scan.
+void LimitWork(j_common_ptr jpeg) {
   auto* decoder = static_cast<Decoder*>(jpeg->client_data);
+  if (decoder->cancellation != nullptr && decoder->cancellation->IsCancelled()) {
+    std::longjmp(decoder->jump, 1);
+  }
   if (decoder->jpeg.input_scan_number <= kMaxScans) return;
   std::snprintf(decoder->message, sizeof(decoder->message), "it has more than %d scans", kMaxScans);
   std::longjmp(decoder->jump, 1);
@@ -64,7 +69,7 @@ void Begin(Decoder* decoder) {
 bool ReadHeader(Decoder* decoder, std::string_view bytes) {
   if (setjmp(decoder->jump) != 0) return false;
   jpeg_create_decompress(&decoder->jpeg);
-  decoder->progress.progress_monitor = &LimitScans;
+  decoder->progress.progress_monitor = &LimitWork;
   decoder->jpeg.progress = &decoder->progress;
   jpeg_mem_src(&decoder->jpeg, reinterpret_cast<const unsigned char*>(bytes.data()),
                static_cast<unsigned long>(bytes.size()));
@@ -94,13 +99,17 @@ absl::Status JpegError(const Decoder& decoder) {
 
 absl::StatusOr<cv::Mat> DecodeJpeg(const Frame& frame, const DecodeLimits& limits) {
   Decoder decoder;
+  decoder.cancellation = limits.cancellation;
   Begin(&decoder);
   if (!ReadHeader(&decoder, frame.data)) return JpegError(decoder);
   const Dimensions size{decoder.jpeg.image_width, decoder.jpeg.image_height};
   HOMING_RETURN_IF_ERROR(CheckLimits(size, limits));
   HOMING_RETURN_IF_ERROR(CheckDeclared(frame, size));
   cv::Mat gray(static_cast<int>(size.height), static_cast<int>(size.width), CV_8UC1);
-  if (!ReadPixels(&decoder, gray.data, gray.step[0])) return JpegError(decoder);
+  if (!ReadPixels(&decoder, gray.data, gray.step[0])) {
+    HOMING_RETURN_IF_ERROR(CheckAwaited(limits.cancellation));
+    return JpegError(decoder);
+  }
   return gray;
 }
 

@@ -78,7 +78,7 @@ struct ServiceCore {
         queue(store.get(), QueueOptions(metrics.get())),
         pool(core_options.workers) {}
 
-  RecordingContext recording() { return {&catalog, &queue, options.decode}; }
+  RecordingContext recording(const DecodeLimits& limits) { return {&catalog, &queue, limits}; }
 
   const CoreOptions options;
   const std::unique_ptr<Metrics> metrics;

@@ -9,11 +9,23 @@
 #include <type_traits>
 #include <utility>
 
+#include "homing/base/cancellation.h"
+#include "homing/base/status_macros.h"
 #include "server/rpc/incoming_call.h"
 #include "server/rpc/service_core.h"
 #include "server/rpc/status_conversion.h"
 
 namespace homing::server {
+
+// Whether the client still waits for its answer. The call must not have finished.
+class UnaryCancellation : public Cancellation {
+ public:
+  explicit UnaryCancellation(const grpc::CallbackServerContext* context) : context_(context) {}
+  bool IsCancelled() const override { return context_->IsCancelled(); }
+
+ private:
+  const grpc::CallbackServerContext* const context_;
+};
 
 // `call` is absl::Status(const JourneyFilter&), or takes the IncomingCall too. It runs only if the
 // caller may do this to `resource`, and may use the RPC's request and response, which outlive it.
@@ -27,8 +39,10 @@ grpc::ServerUnaryReactor* ServeUnary(ServiceCore* core, grpc::CallbackServerCont
   if (core->streams.draining()) {
     admitted = DrainingError();
   } else if (admitted.ok() &&
-             core->pool.TryRun([reactor, incoming, resource, call = std::move(call)] {
+             core->pool.TryRun([reactor, context, incoming, resource, call = std::move(call)] {
                reactor->Finish(incoming->Finish(Guarded([&] {
+                 const UnaryCancellation cancellation(context);
+                 HOMING_RETURN_IF_ERROR(CheckAwaited(&cancellation));
                  absl::Status allowed = incoming->Authorize(resource);
                  if (!allowed.ok()) return allowed;
                  if constexpr (std::is_invocable_v<Call, JourneyFilter, const IncomingCall&>) {

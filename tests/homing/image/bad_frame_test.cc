@@ -160,5 +160,29 @@ TEST(BadFrameTest, LimitsAreTheCallers) {
   EXPECT_THAT(DecodeGray({kPng, 0, 0, bytes}, limits), IsOk());
 }
 
+class CancelledAt : public Cancellation {
+ public:
+  explicit CancelledAt(int at) : at_(at) {}
+  bool IsCancelled() const override { return ++asked_ >= at_; }
+
+ private:
+  const int at_;
+  mutable int asked_ = 0;
+};
+
+TEST(DecodeGrayTest, NobodyWaitsForTheRestOfAnImage) {
+  for (const FrameEncoding encoding : {kJpeg, kPng}) {
+    const std::string bytes = encoding == kJpeg ? Jpeg() : Png();
+    // Before it, and in the middle of a JPEG, which may have many scans.
+    for (const int at : {1, encoding == kJpeg ? 20 : 1}) {
+      const CancelledAt cancelled(at);
+      DecodeLimits limits;
+      limits.cancellation = &cancelled;
+      EXPECT_THAT(DecodeGray({encoding, 0, 0, bytes}, limits),
+                  StatusIs(absl::StatusCode::kCancelled, HasSubstr("does not wait")));
+    }
+  }
+}
+
 }  // namespace
 }  // namespace homing
