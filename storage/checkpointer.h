@@ -30,6 +30,10 @@ class Checkpointer {
   // unknown. Thread-safe.
   int CountPagesInLog();
 
+  // Moves all pages now, with the writer blocked, so that the log starts again at its beginning.
+  // REQUIRES: the caller does not hold the write mutex.
+  void MoveNow() { MoveAll(); }
+
   // Waits for the current work.
   ~Checkpointer();
   Checkpointer(const Checkpointer&) = delete;

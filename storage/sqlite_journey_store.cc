@@ -124,7 +124,12 @@ absl::Status SqliteJourneyStore::ProbeWrite() {
     Connection& writer = *writer_;
     NoteHealth(writer.Write([&] { return TouchSchemaVersion(writer); }), true);
   }
-  return WriteHealth();
+  const absl::Status health = WriteHealth();
+  if (health.ok()) {
+    const MutexLock lock(reserve_mutex_);
+    if (reserve_ != nullptr) reserve_->Fill();
+  }
+  return health;
 }
 
 absl::Status SqliteJourneyStore::Read(const Body& body) {
@@ -170,7 +175,32 @@ absl::StatusOr<std::vector<JourneyRecord>> SqliteJourneyStore::ListJourneys(
       [&](Connection& connection) { return ListJourneyRows(connection, prefix, after, limit); });
 }
 
+void SqliteJourneyStore::KeepReserve(std::unique_ptr<SpaceReserve> reserve) {
+  const MutexLock lock(reserve_mutex_);
+  reserve_ = std::move(reserve);
+  reserve_->Fill();
+}
+
 absl::Status SqliteJourneyStore::DeleteJourney(const std::string& name) {
+  const absl::Status deleted = DeleteOnce(name);
+  if (!absl::IsResourceExhausted(deleted)) return deleted;
+  const MutexLock lock(reserve_mutex_);
+  const std::int64_t bytes = reserve_ == nullptr ? 0 : reserve_->GiveUp();
+  if (bytes == 0) return deleted;
+  // The log begins anew, so that it needs no more space, once it was moved into the file.
+  checkpointer_->MoveNow();
+  absl::Status again = DeleteOnce(name);
+  checkpointer_->MoveNow();
+  reserve_->TakeBack(bytes);
+  if (!absl::IsResourceExhausted(again)) return again;
+  return StoreFault(absl::StatusCode::kResourceExhausted,
+                    absl::StrCat("store: the disk is full, and the ", bytes,
+                                 " bytes kept for deleting are not enough for '", name,
+                                 "': delete a smaller journey first, or free some space on the "
+                                 "server's disk"));
+}
+
+absl::Status SqliteJourneyStore::DeleteOnce(const std::string& name) {
   return Write([&](Connection& connection) {
     appends_.ForgetEpoch(name);
     return DeleteJourneyRow(connection, name);

@@ -1,0 +1,56 @@
+#include "storage/space_reserve.h"
+
+#include <fcntl.h>
+#include <sys/statvfs.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace homing::storage {
+namespace {
+
+// Less does not hold the log of a deletion.
+constexpr std::int64_t kLeastBytes = 256 << 10;
+
+std::int64_t FreeBytes(const std::string& path) {
+  struct statvfs disk {};
+  if (::statvfs(path.c_str(), &disk) != 0) return 0;
+  return static_cast<std::int64_t>(disk.f_bavail) * static_cast<std::int64_t>(disk.f_frsize);
+}
+
+}  // namespace
+
+SpaceReserve::SpaceReserve(const std::string& store_path) : path_(store_path + "-reserve") {
+  ::unlink(path_.c_str());
+}
+
+void SpaceReserve::Fill() {
+  const std::size_t slash = path_.rfind('/');
+  const std::string folder = slash == std::string::npos ? "." : path_.substr(0, slash + 1);
+  const std::int64_t wanted = std::min(kMostBytes, (FreeBytes(folder) + bytes_) / 4);
+  if (wanted > bytes_) TakeBack(wanted);
+}
+
+void SpaceReserve::TakeBack(std::int64_t bytes) {
+  // What exists under the name is not this server's.
+  const int flags = O_WRONLY | O_CREAT | O_CLOEXEC | O_NOFOLLOW | (bytes_ == 0 ? O_EXCL : 0);
+  const int file = ::open(path_.c_str(), flags, 0600);
+  if (file < 0) return;
+  while (bytes > bytes_ && bytes >= kLeastBytes) {
+    if (::posix_fallocate(file, 0, bytes) == 0) {
+      bytes_ = bytes;
+    } else {
+      bytes /= 2;
+    }
+  }
+  ::close(file);
+  if (bytes_ == 0) ::unlink(path_.c_str());
+}
+
+std::int64_t SpaceReserve::GiveUp() {
+  if (bytes_ == 0 || ::unlink(path_.c_str()) != 0) return 0;
+  return std::exchange(bytes_, 0);
+}
+
+}  // namespace homing::storage
