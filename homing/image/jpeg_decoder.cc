@@ -1,6 +1,8 @@
 #include "homing/image/jpeg_decoder.h"
 
+#include <algorithm>
 #include <csetjmp>
+#include <cstdint>
 #include <cstdio>
 #include <string>
 
@@ -16,8 +18,10 @@
 namespace homing {
 namespace {
 
-// A progressive file of more scans than this is made to waste time.
+// A progressive file of more scans than this is made to waste time; so is a large one of fewer:
+// each scan visits all pixels. Cameras write about ten.
 constexpr int kMaxScans = 500;
+constexpr std::int64_t kMaxPixelsOfScans = std::int64_t{1} << 29;
 
 // libjpeg's state of one image. `jump` is where its errors end; no object with a destructor may
 // live between setjmp and a call into libjpeg.
@@ -32,6 +36,7 @@ struct Decoder {
   jpeg_progress_mgr progress{};
   std::jmp_buf jump{};
   const Cancellation* cancellation = nullptr;
+  int max_scans = kMaxScans;
   char message[JMSG_LENGTH_MAX] = "";
 };
 
@@ -53,8 +58,9 @@ void LimitWork(j_common_ptr jpeg) {
   if (decoder->cancellation != nullptr && decoder->cancellation->IsCancelled()) {
     std::longjmp(decoder->jump, 1);
   }
-  if (decoder->jpeg.input_scan_number <= kMaxScans) return;
-  std::snprintf(decoder->message, sizeof(decoder->message), "it has more than %d scans", kMaxScans);
+  if (decoder->jpeg.input_scan_number <= decoder->max_scans) return;
+  std::snprintf(decoder->message, sizeof(decoder->message), "it has more than %d scans",
+                decoder->max_scans);
   std::longjmp(decoder->jump, 1);
 }
 
@@ -105,6 +111,9 @@ absl::StatusOr<cv::Mat> DecodeJpeg(const Frame& frame, const DecodeLimits& limit
   const Dimensions size{decoder.jpeg.image_width, decoder.jpeg.image_height};
   HOMING_RETURN_IF_ERROR(CheckLimits(size, limits));
   HOMING_RETURN_IF_ERROR(CheckDeclared(frame, size));
+  const std::int64_t pixels = std::int64_t{size.width} * std::int64_t{size.height};
+  decoder.max_scans =
+      static_cast<int>(std::min<std::int64_t>(kMaxScans, kMaxPixelsOfScans / pixels));
   cv::Mat gray(static_cast<int>(size.height), static_cast<int>(size.width), CV_8UC1);
   if (!ReadPixels(&decoder, gray.data, gray.step[0])) {
     HOMING_RETURN_IF_ERROR(CheckAwaited(limits.cancellation));
