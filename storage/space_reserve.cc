@@ -12,6 +12,8 @@ namespace {
 
 // Less does not hold the log of a deletion.
 constexpr std::int64_t kLeastBytes = 256 << 10;
+// Less more is not worth another try.
+constexpr std::int64_t kGrowth = 1 << 20;
 
 std::int64_t FreeBytes(const std::string& path) {
   struct statvfs disk {};
@@ -29,7 +31,7 @@ void SpaceReserve::Fill() {
   const std::size_t slash = path_.rfind('/');
   const std::string folder = slash == std::string::npos ? "." : path_.substr(0, slash + 1);
   const std::int64_t wanted = std::min(kMostBytes, (FreeBytes(folder) + bytes_) / 4);
-  if (wanted > bytes_) TakeBack(wanted);
+  if (bytes_ == 0 || wanted >= std::min(kMostBytes, bytes_ + kGrowth)) TakeBack(wanted);
 }
 
 void SpaceReserve::TakeBack(std::int64_t bytes) {
@@ -38,7 +40,8 @@ void SpaceReserve::TakeBack(std::int64_t bytes) {
   const int file = ::open(path_.c_str(), flags, 0600);
   if (file < 0) return;
   while (bytes > bytes_ && bytes >= kLeastBytes) {
-    if (::posix_fallocate(file, 0, bytes) == 0) {
+    // A file system that cannot has no reserve: to write as much would take too long.
+    if (::fallocate(file, 0, 0, bytes) == 0) {
       bytes_ = bytes;
     } else {
       bytes /= 2;

@@ -10,7 +10,8 @@ namespace homing::storage {
 // A file without content beside the store. Not thread-safe.
 class SpaceReserve {
  public:
-  static constexpr std::int64_t kMostBytes = 16 << 20;
+  // As much as the log may hold before it is moved into the file, which may then grow by that.
+  static constexpr std::int64_t kMostBytes = 64 << 20;
 
   // Gives up what a server before this one kept, so that the store can be opened on a full disk.
   explicit SpaceReserve(const std::string& store_path);
@@ -22,6 +23,7 @@ class SpaceReserve {
   void Fill();
   // Keeps up to `bytes` again, whatever is left then.
   void TakeBack(std::int64_t bytes);
+  std::int64_t bytes() const { return bytes_; }
   // Returns how many bytes the disk has more now.
   std::int64_t GiveUp();
 

@@ -93,8 +93,17 @@ void SqliteJourneyStore::NoteHealth(const absl::Status& written, bool changed) {
 
 absl::Status SqliteJourneyStore::WriteHealth() {
   HOMING_RETURN_IF_ERROR(CheckFiles());
-  const MutexLock lock(health_mutex_);
-  return write_health_;
+  absl::Status health;
+  {
+    const MutexLock lock(health_mutex_);
+    health = write_health_;
+  }
+  // A deletion that uses it is not waited for.
+  if (health.ok() && reserve_mutex_.TryLock()) {
+    FillReserve();
+    reserve_mutex_.Unlock();
+  }
+  return health;
 }
 
 bool SqliteJourneyStore::IsHealed() {
@@ -124,12 +133,7 @@ absl::Status SqliteJourneyStore::ProbeWrite() {
     Connection& writer = *writer_;
     NoteHealth(writer.Write([&] { return TouchSchemaVersion(writer); }), true);
   }
-  const absl::Status health = WriteHealth();
-  if (health.ok()) {
-    const MutexLock lock(reserve_mutex_);
-    if (reserve_ != nullptr) reserve_->Fill();
-  }
-  return health;
+  return WriteHealth();
 }
 
 absl::Status SqliteJourneyStore::Read(const Body& body) {
@@ -178,7 +182,19 @@ absl::StatusOr<std::vector<JourneyRecord>> SqliteJourneyStore::ListJourneys(
 void SqliteJourneyStore::KeepReserve(std::unique_ptr<SpaceReserve> reserve) {
   const MutexLock lock(reserve_mutex_);
   reserve_ = std::move(reserve);
+  FillReserve();
+}
+
+void SqliteJourneyStore::FillReserve() {
+  if (reserve_ == nullptr || reserve_->bytes() == SpaceReserve::kMostBytes) return;
   reserve_->Fill();
+  LimitLog();
+}
+
+void SqliteJourneyStore::LimitLog() {
+  if (const std::int64_t bytes = reserve_->bytes(); bytes > 0) {
+    checkpointer_->LimitLog(bytes / (page_bytes_ + kLogFrameBytes));
+  }
 }
 
 absl::Status SqliteJourneyStore::DeleteJourney(const std::string& name) {
@@ -187,11 +203,15 @@ absl::Status SqliteJourneyStore::DeleteJourney(const std::string& name) {
   const MutexLock lock(reserve_mutex_);
   const std::int64_t bytes = reserve_ == nullptr ? 0 : reserve_->GiveUp();
   if (bytes == 0) return deleted;
-  // The log begins anew, so that it needs no more space, once it was moved into the file.
-  checkpointer_->MoveNow();
   absl::Status again = DeleteOnce(name);
+  // Once it is in the file, the log begins anew: what follows needs no more space.
   checkpointer_->MoveNow();
+  if (absl::IsResourceExhausted(again)) {
+    again = DeleteOnce(name);
+    checkpointer_->MoveNow();
+  }
   reserve_->TakeBack(bytes);
+  LimitLog();
   if (!absl::IsResourceExhausted(again)) return again;
   return StoreFault(absl::StatusCode::kResourceExhausted,
                     absl::StrCat("store: the disk is full, and the ", bytes,

@@ -71,6 +71,10 @@ class SqliteJourneyStore final : public JourneyStore {
   absl::Status Write(const Body& body);
   absl::Status Transact(const Body& body);
   absl::Status DeleteOnce(const std::string& name);
+  // Where there is space again.
+  void FillReserve() HOMING_REQUIRES(reserve_mutex_);
+  // The log holds no more than the file can grow by when the reserve is given up.
+  void LimitLog() HOMING_REQUIRES(reserve_mutex_);
   // The files are those that were opened. A store in memory has none.
   absl::Status CheckFiles();
   void NoteLogPages(int pages);
