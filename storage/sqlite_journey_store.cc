@@ -93,17 +93,12 @@ void SqliteJourneyStore::NoteHealth(const absl::Status& written, bool changed) {
 
 absl::Status SqliteJourneyStore::WriteHealth() {
   HOMING_RETURN_IF_ERROR(CheckFiles());
-  absl::Status health;
   {
     const MutexLock lock(health_mutex_);
-    health = write_health_;
+    if (!write_health_.ok()) return write_health_;
   }
-  // A deletion that uses it is not waited for.
-  if (health.ok() && reserve_mutex_.TryLock()) {
-    FillReserve();
-    reserve_mutex_.Unlock();
-  }
-  return health;
+  TryFillReserve();
+  return absl::OkStatus();
 }
 
 bool SqliteJourneyStore::IsHealed() {
@@ -177,54 +172,6 @@ absl::StatusOr<std::vector<JourneyRecord>> SqliteJourneyStore::ListJourneys(
     const std::string& prefix, const std::string& after, int limit) {
   return ReadOne<std::vector<JourneyRecord>>(
       [&](Connection& connection) { return ListJourneyRows(connection, prefix, after, limit); });
-}
-
-void SqliteJourneyStore::KeepReserve(std::unique_ptr<SpaceReserve> reserve) {
-  const MutexLock lock(reserve_mutex_);
-  reserve_ = std::move(reserve);
-  FillReserve();
-}
-
-void SqliteJourneyStore::FillReserve() {
-  if (reserve_ == nullptr || reserve_->bytes() == SpaceReserve::kMostBytes) return;
-  reserve_->Fill();
-  LimitLog();
-}
-
-void SqliteJourneyStore::LimitLog() {
-  if (const std::int64_t bytes = reserve_->bytes(); bytes > 0) {
-    checkpointer_->LimitLog(bytes / (page_bytes_ + kLogFrameBytes));
-  }
-}
-
-absl::Status SqliteJourneyStore::DeleteJourney(const std::string& name) {
-  const absl::Status deleted = DeleteOnce(name);
-  if (!absl::IsResourceExhausted(deleted)) return deleted;
-  const MutexLock lock(reserve_mutex_);
-  const std::int64_t bytes = reserve_ == nullptr ? 0 : reserve_->GiveUp();
-  if (bytes == 0) return deleted;
-  absl::Status again = DeleteOnce(name);
-  // Once it is in the file, the log begins anew: what follows needs no more space.
-  checkpointer_->MoveNow();
-  if (absl::IsResourceExhausted(again)) {
-    again = DeleteOnce(name);
-    checkpointer_->MoveNow();
-  }
-  reserve_->TakeBack(bytes);
-  LimitLog();
-  if (!absl::IsResourceExhausted(again)) return again;
-  return StoreFault(absl::StatusCode::kResourceExhausted,
-                    absl::StrCat("store: the disk is full, and the ", bytes,
-                                 " bytes kept for deleting are not enough for '", name,
-                                 "': delete a smaller journey first, or free some space on the "
-                                 "server's disk"));
-}
-
-absl::Status SqliteJourneyStore::DeleteOnce(const std::string& name) {
-  return Write([&](Connection& connection) {
-    appends_.ForgetEpoch(name);
-    return DeleteJourneyRow(connection, name);
-  });
 }
 
 absl::Status SqliteJourneyStore::FinishJourney(const std::string& name) {

@@ -73,6 +73,8 @@ class SqliteJourneyStore final : public JourneyStore {
   absl::Status DeleteOnce(const std::string& name);
   // Where there is space again.
   void FillReserve() HOMING_REQUIRES(reserve_mutex_);
+  // Not while a deletion uses it.
+  void TryFillReserve();
   // The log holds no more than the file can grow by when the reserve is given up.
   void LimitLog() HOMING_REQUIRES(reserve_mutex_);
   // The files are those that were opened. A store in memory has none.

@@ -35,18 +35,6 @@ Observation Both(const Moment& left, const Moment& right) {
   return {0, 0, false, {left.frame(), right.frame()}};
 }
 
-// Is cancelled when it is asked for the `at`th time.
-class CancelledAt : public Cancellation {
- public:
-  explicit CancelledAt(int at) : at_(at) {}
-  bool IsCancelled() const override { return ++asked_ >= at_; }
-  int asked() const { return asked_; }
-
- private:
-  const int at_;
-  mutable int asked_ = 0;
-};
-
 Observation LeftOnly(const Moment& left) { return {0, 0, false, {left.frame(), std::monostate()}}; }
 
 TEST(ObservationFlowTest, TheSecondFrameGivesFlowOfBothCameras) {
@@ -71,29 +59,6 @@ TEST(ObservationFlowTest, ACameraAbsentAtAStepGivesNoFlowUntilTheNext) {
   EXPECT_TRUE(back.fields[0].has_value());
   EXPECT_FALSE(back.fields[1].has_value());
   EXPECT_TRUE(flow.Compute(Both(Moment(3), Moment(3))).value().fields[1].has_value());
-}
-
-TEST(ObservationFlowTest, ItStopsBetweenAnyTwoStagesOfAPairOfFrames) {
-  const Moment before(0, 400), now(1, 400);
-  DecodeLimits limits;
-  const CancelledAt never(1 << 20);
-  limits.cancellation = &never;
-  ObservationFlow whole({}, limits);
-  ASSERT_THAT(whole.Compute(Both(before, before)), IsOk());
-  const int asked_for_first = never.asked();
-  ASSERT_THAT(whole.Compute(Both(now, now)), IsOk());
-  // Of each camera: its decoding, three stages of its frame, its corners there and back.
-  EXPECT_GE(never.asked() - asked_for_first, 2 * 6);
-  for (int at = 1; at <= never.asked(); ++at) {
-    const CancelledAt cancelled(at);
-    limits.cancellation = &cancelled;
-    ObservationFlow flow({}, limits);
-    absl::Status status = flow.Compute(Both(before, before)).status();
-    EXPECT_EQ(status.ok(), at > asked_for_first);
-    if (status.ok()) status = flow.Compute(Both(now, now)).status();
-    EXPECT_THAT(status, StatusIs(absl::StatusCode::kCancelled, HasSubstr("does not wait")));
-    EXPECT_EQ(cancelled.asked(), at);
-  }
 }
 
 double MedianFlow(const std::optional<FlowField>& field) {
