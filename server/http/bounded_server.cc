@@ -4,6 +4,9 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <cstdint>
+#include <cstdlib>
+#include <limits>
 #include <utility>
 
 #include "server/http/timed_stream.h"
@@ -15,7 +18,16 @@ constexpr std::chrono::seconds kIdleTime{2};
 constexpr std::chrono::seconds kRequestTime{5};
 constexpr std::size_t kMaxHeaders = 64 << 10;
 // Of one connection.
-constexpr int kMaxRequests = 1000;
+constexpr std::size_t kMaxRequests = 1000;
+
+// Of the body that a request says to have; a chunked one has at least a byte.
+std::uint64_t BodyBytes(const httplib::Request& request) {
+  if (request.has_header("Transfer-Encoding")) {
+    // A proxy may see another end of it.
+    return request.has_header("Content-Length") ? std::numeric_limits<std::uint32_t>::max() : 1;
+  }
+  return std::strtoull(request.get_header_value("Content-Length").c_str(), nullptr, 10);
+}
 
 }  // namespace
 
@@ -28,6 +40,9 @@ BoundedServer::BoundedServer() {
     ::setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof(yes));
   });
   set_payload_max_length(kMaxBody);
+  // What its answers say.
+  set_keep_alive_timeout(kIdleTime.count());
+  set_keep_alive_max_count(kMaxRequests);
 }
 
 absl::Status BoundedServer::UseCertificate(const std::string& certificate, const std::string& key) {
@@ -82,9 +97,17 @@ bool BoundedServer::Serve(socket_t socket) {
   if (!stream.Begin()) return false;
   bool served = true;
   bool closed = false;
-  for (int left = kMaxRequests; left > 0 && served && !closed; --left) {
+  for (std::size_t left = kMaxRequests; left > 0 && served && !closed; --left) {
     if (svr_sock_ == INVALID_SOCKET || !stream.AwaitRequest()) break;
-    served = process_request(stream, left == 1, closed, nullptr);
+    // Also that of a request that could not be understood.
+    std::uint64_t body_end = std::numeric_limits<std::uint64_t>::max();
+    served = process_request(stream, left == 1, closed, [&](httplib::Request& request) {
+      // The library would unpack it without a limit.
+      request.headers.erase("Content-Encoding");
+      body_end = stream.consumed() + BodyBytes(request);
+    });
+    // The body of a request that was refused must not be taken for the next request.
+    if (stream.consumed() < body_end) break;
   }
   return served;
 }

@@ -116,6 +116,7 @@ ssize_t TimedStream::read(char* bytes, std::size_t size) {
   const std::size_t given = std::min(size, last_ - first_);
   std::memcpy(bytes, buffer_.data() + first_, given);
   first_ += given;
+  consumed_ += given;
   return static_cast<ssize_t>(given);
 }
 

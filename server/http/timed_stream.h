@@ -9,6 +9,7 @@
 #include <array>
 #include <chrono>
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <string>
 
@@ -36,6 +37,9 @@ class TimedStream final : public httplib::Stream {
   bool Begin();
   // Waits for the next request. False: none came.
   bool AwaitRequest();
+
+  // Bytes read so far.
+  std::uint64_t consumed() const { return consumed_; }
 
   bool is_readable() const override;
   // The other side has not closed the connection.
@@ -68,6 +72,7 @@ class TimedStream final : public httplib::Stream {
   std::array<char, 4096> buffer_{};
   std::size_t first_ = 0;
   std::size_t last_ = 0;
+  std::uint64_t consumed_ = 0;
   // The last request did not come whole.
   bool broken_ = false;
   // Of the current request.

@@ -29,17 +29,18 @@ class UnaryCancellation : public Cancellation {
 
 // `call` is absl::Status(const JourneyFilter&), or takes the IncomingCall too. It runs only if the
 // caller may do this to `resource`, and may use the RPC's request and response, which outlive it.
-// For a pattern it must apply the filter.
+// For a pattern it must apply the filter. `pool` belongs to the core.
 template <typename Call>
 grpc::ServerUnaryReactor* ServeUnary(ServiceCore* core, grpc::CallbackServerContext* context,
-                                     Rpc rpc, const std::string& resource, Call call) {
+                                     Rpc rpc, const std::string& resource, Call call,
+                                     WorkerPool* pool) {
   grpc::ServerUnaryReactor* reactor = context->DefaultReactor();
   const auto incoming = std::make_shared<IncomingCall>(core, *context, rpc);
   absl::Status admitted = incoming->identified();
   if (core->streams.draining()) {
     admitted = DrainingError();
   } else if (admitted.ok() &&
-             core->pool.TryRun([reactor, context, incoming, resource, call = std::move(call)] {
+             pool->TryRun([reactor, context, incoming, resource, call = std::move(call)] {
                reactor->Finish(incoming->Finish(Guarded([&] {
                  const UnaryCancellation cancellation(context);
                  HOMING_RETURN_IF_ERROR(CheckAwaited(&cancellation));
@@ -58,6 +59,12 @@ grpc::ServerUnaryReactor* ServeUnary(ServiceCore* core, grpc::CallbackServerCont
   }
   reactor->Finish(incoming->Finish(admitted));
   return reactor;
+}
+
+template <typename Call>
+grpc::ServerUnaryReactor* ServeUnary(ServiceCore* core, grpc::CallbackServerContext* context,
+                                     Rpc rpc, const std::string& resource, Call call) {
+  return ServeUnary(core, context, rpc, resource, std::move(call), &core->pool);
 }
 
 }  // namespace homing::server
