@@ -1,6 +1,7 @@
 #include "server/http/timed_stream.h"
 
 #include <arpa/inet.h>
+#include <fcntl.h>
 #include <netdb.h>
 #include <openssl/err.h>
 #include <poll.h>
@@ -32,6 +33,8 @@ void Describe(const sockaddr_storage& address, socklen_t size, std::string* ip, 
 
 TimedStream::TimedStream(int socket, SSL_CTX* context, const Limits& limits)
     : socket_(socket), limits_(limits) {
+  // OpenSSL would wait for the rest of a record without end.
+  ::fcntl(socket_, F_SETFL, ::fcntl(socket_, F_GETFL) | O_NONBLOCK);
   if (context == nullptr) return;
   ssl_.reset(SSL_new(context));
   SSL_set_fd(ssl_.get(), socket_);

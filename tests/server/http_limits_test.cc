@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "server/access/certificate_folder.h"
 #include "server/access/token_book.h"
 #include "server/http/login_limit.h"
 #include "tests/server/server_fixture.h"
@@ -106,6 +107,24 @@ TEST_F(HttpLimitsTest, ManySlowClientsOfOneAddressLeaveRoomForOthers) {
     std::this_thread::sleep_for(std::chrono::milliseconds(100));
   }
   EXPECT_EQ(open, 0);
+}
+
+TEST_F(HttpLimitsTest, AHandshakeHasAnEnd) {
+  CertificateOrder order;
+  order.folder = folder_.File("pki");
+  EXPECT_THAT(MakeCertificates(order), IsOk());
+  options_.tls_cert = folder_.File("pki/server.pem");
+  options_.tls_key = folder_.File("pki/server.key");
+  StartServer();
+  RawClient client(server_->metrics_address(), "127.0.0.1");
+  // The head of a record, whose content comes byte by byte.
+  ASSERT_TRUE(client.Send(std::string{"\x16\x03\x01\x02\x00\x01", 6}));
+  int sent = 0;
+  while (sent < 200 && client.Send(std::string(1, '\0'))) {
+    ++sent;
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  }
+  EXPECT_LT(sent, 200);
 }
 
 TEST_F(HttpLimitsTest, RequestsInOnePieceAreAnsweredInOrder) {
