@@ -34,7 +34,7 @@ void SqliteJourneyStore::LimitLog() {
 }
 
 absl::Status SqliteJourneyStore::DeleteJourney(const std::string& name) {
-  const absl::Status deleted = DeleteOnce(name);
+  absl::Status deleted = DeleteOnce(name);
   if (!absl::IsResourceExhausted(deleted)) return deleted;
   const MutexLock lock(reserve_mutex_);
   const std::int64_t bytes = reserve_ == nullptr ? 0 : reserve_->GiveUp();
