@@ -37,6 +37,7 @@ class FullDiskTest : public ::testing::Test {
   }
   static absl::Status AppendHundred(JourneyStore& store, const char* journey, StepMaker* maker) {
     std::vector<JourneyAppend> appends;
+    appends.reserve(100);
     for (int i = 0; i < 100; ++i) appends.push_back(AppendOf(journey, maker->Next()));
     return store.AppendSteps(appends)[0];
   }
