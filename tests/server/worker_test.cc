@@ -38,14 +38,14 @@ std::string NoiseOf(std::uint32_t seed, int width, int height) {
 }
 
 TEST_F(WorkerTest, AFramePairOfAClientThatDoesNotWaitFreesItsWorker) {
-  constexpr int kLong = 2048;
+  constexpr int kLong = 1024;
   const std::string first = NoiseOf(1, kLong, kLong);
   const std::string second = NoiseOf(2, kLong, kLong);
   v1::CreateJourneyRequest journey;
   journey.set_parent("robots/r");
   journey.set_journey_id("costly");
   v1::FlowSettings* flow = journey.mutable_journey()->mutable_settings()->mutable_flow();
-  flow->set_working_width_px(kLong);
+  flow->set_working_width_px(2 * kLong);
   flow->set_window_px(63);
   flow->set_cell_px(16);
   flow->set_min_eigenvalue(1e-6);
