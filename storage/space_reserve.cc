@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <utility>
 
 namespace homing::storage {
@@ -35,6 +36,7 @@ void SpaceReserve::Fill() {
 }
 
 void SpaceReserve::TakeBack(std::int64_t bytes) {
+  if (bytes < kLeastBytes || !can_reserve_) return;
   // What exists under the name is not this server's.
   const int flags = O_WRONLY | O_CREAT | O_CLOEXEC | O_NOFOLLOW | (bytes_ == 0 ? O_EXCL : 0);
   const int file = ::open(path_.c_str(), flags, 0600);
@@ -44,7 +46,8 @@ void SpaceReserve::TakeBack(std::int64_t bytes) {
     if (::fallocate(file, 0, 0, bytes) == 0) {
       bytes_ = bytes;
     } else {
-      bytes /= 2;
+      can_reserve_ = errno == ENOSPC || errno == EDQUOT || errno == EINTR;
+      bytes = can_reserve_ ? bytes / 2 : 0;
     }
   }
   ::close(file);

@@ -30,6 +30,8 @@ class SpaceReserve {
  private:
   const std::string path_;
   std::int64_t bytes_ = 0;
+  // The file system can keep space for a file.
+  bool can_reserve_ = true;
 };
 
 }  // namespace homing::storage
