@@ -8,6 +8,7 @@ stage_packages() {
   # Packages of the last stages may be missing: these stages then report it.
   sh deploy/install.sh container || echo "containers cannot be tried here"
   sh deploy/install.sh operations || echo "alert rules and dashboard cannot be tried here"
+  sh deploy/install.sh documents || echo "the site of the documents cannot be built here"
   sh deploy/install.sh console || echo "the console cannot be tried in a browser here"
 }
 
@@ -85,6 +86,17 @@ stage_quickstart() {
     --home-travel same | tee "$scratch/second.log"
   # "Set-up took N s"
   [ "$(sed -n 's/^Set-up took \([0-9]*\) s.*/\1/p' "$scratch/second.log")" -lt 10 ]
+}
+
+# The commands of the tutorial as they are written, then the site and its links.
+stage_documents() {
+  if [ -d "$scratch/root/homing" ]; then
+    in_bare_root sh /homing/tests/documents/tutorial.sh
+  else
+    sh tests/documents/tutorial.sh
+  fi
+  command -v mkdocs >/dev/null || skip "mkdocs is not installed; the tutorial is in order"
+  sh tests/documents/site.sh
 }
 
 # The second command of README.md.

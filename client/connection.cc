@@ -124,10 +124,9 @@ absl::StatusOr<Connection> Connection::Open(const ConnectionOptions& options) {
   HOMING_ASSIGN_OR_RETURN(const std::string token, ReadToken(options));
   HOMING_ASSIGN_OR_RETURN(const std::string target, ChannelTarget(options.address));
   const grpc::ChannelArguments arguments = MakeArguments(options.address);
-  return Connection(options, token.empty()
-                                 ? grpc::CreateCustomChannel(target, credentials, arguments)
-                                 : grpc::experimental::CreateCustomChannelWithInterceptors(
-                                       target, credentials, arguments, SendToken(token)));
+  return Connection(options,
+                    grpc::experimental::CreateCustomChannelWithInterceptors(
+                        target, credentials, arguments, SendToken(token, options.traceparent)));
 }
 
 absl::Status Connection::WaitForServer() const {

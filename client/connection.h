@@ -30,6 +30,9 @@ struct ConnectionOptions {
   // TLS only to this machine, unless `insecure`.
   std::string token_file;
   bool insecure = false;
+  // W3C traceparent of whoever started this program; otherwise a new trace begins. Each call names
+  // the trace, and a span of its own.
+  std::string traceparent;
   // Longest time for the first connection.
   std::chrono::milliseconds connect_timeout{5000};
   // Time for which a broken connection is retried, since it last worked.

@@ -116,6 +116,15 @@ absl::Status JourneyClient::ListLandmarks(
   return absl::OkStatus();
 }
 
+absl::StatusOr<v1::DescribeRouteResponse> JourneyClient::DescribeRoute(const std::string& journey) {
+  v1::DescribeRouteRequest request;
+  request.set_name(journey);
+  request.set_columns(1);
+  return CallUnary<v1::DescribeRouteResponse>(
+      *connection_, stop_,
+      [&](auto* context, auto* answer) { return stub_->DescribeRoute(context, request, answer); });
+}
+
 absl::StatusOr<v1::AnalyzeAliasingResponse> JourneyClient::AnalyzeAliasing(
     const std::string& journey, int tolerance_steps) {
   v1::AnalyzeAliasingRequest request;

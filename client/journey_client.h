@@ -44,6 +44,8 @@ class JourneyClient {
                     const std::function<absl::Status(const v1::Journey&)>& each);
   absl::Status ListLandmarks(const std::string& journey, bool include_fingerprints,
                              const std::function<absl::Status(const v1::Landmark&)>& each);
+  // One column for the whole journey: where the cameras look, and how large the map is.
+  absl::StatusOr<v1::DescribeRouteResponse> DescribeRoute(const std::string& journey);
   absl::StatusOr<v1::AnalyzeAliasingResponse> AnalyzeAliasing(const std::string& journey,
                                                               int tolerance_steps);
   // Not retried: a part of the file may already be written.

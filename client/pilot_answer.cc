@@ -22,6 +22,7 @@ PilotAnswer ToPilotAnswer(const v1::LocalizeResponse& answer, double time_s) {
   result.time_s = time_s;
   result.outcome = OutcomeOf(answer.outcome());
   result.is_turning = answer.motion() == v1::MOTION_TURNING;
+  result.is_standing = answer.motion() == v1::MOTION_STANDING;
   result.probability = answer.probability();
   if (answer.has_progress_home()) result.progress_home = answer.progress_home();
   if (answer.has_speed_ratio()) result.speed_ratio = answer.speed_ratio();

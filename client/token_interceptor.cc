@@ -1,47 +1,69 @@
 #include "client/token_interceptor.h"
 
+#include <cstdint>
+#include <random>
 #include <utility>
+
+#include "absl/strings/str_cat.h"
+#include "homing/base/trace_parent.h"
 
 namespace homing::client {
 namespace {
 
 namespace ge = grpc::experimental;
 
-class TokenInterceptor final : public ge::Interceptor {
+// 16 hexadecimal digits, not all 0.
+std::string NewId() {
+  std::random_device random;
+  const std::uint64_t number = (std::uint64_t{random()} << 32) | random();
+  return absl::StrCat(absl::Hex(number | 1, absl::kZeroPad16));
+}
+
+class CallInterceptor final : public ge::Interceptor {
  public:
-  explicit TokenInterceptor(std::string header) : header_(std::move(header)) {}
+  CallInterceptor(std::string authorization, std::string trace)
+      : authorization_(std::move(authorization)), trace_(std::move(trace)) {}
 
   void Intercept(ge::InterceptorBatchMethods* methods) override {
     if (methods->QueryInterceptionHookPoint(
             ge::InterceptionHookPoints::PRE_SEND_INITIAL_METADATA)) {
-      methods->GetSendInitialMetadata()->emplace("authorization", header_);
+      auto* metadata = methods->GetSendInitialMetadata();
+      if (!authorization_.empty()) metadata->emplace("authorization", authorization_);
+      metadata->emplace("traceparent", trace_);
     }
     methods->Proceed();
   }
 
  private:
-  const std::string header_;
+  // gRPC keeps references to them until the call is over.
+  const std::string authorization_;
+  const std::string trace_;
 };
 
-class TokenFactory final : public ge::ClientInterceptorFactoryInterface {
+class CallFactory final : public ge::ClientInterceptorFactoryInterface {
  public:
-  explicit TokenFactory(const std::string& token) : header_("Bearer " + token) {}
+  CallFactory(const std::string& token, const std::string& traceparent)
+      : authorization_(token.empty() ? "" : "Bearer " + token),
+        trace_(ParseTraceParent(traceparent).value_or(TraceParent{NewId() + NewId(), ""})) {}
 
   // gRPC takes ownership of the result.
   ge::Interceptor* CreateClientInterceptor(ge::ClientRpcInfo* /*info*/) override {
-    return std::make_unique<TokenInterceptor>(header_).release();
+    TraceParent call = trace_;
+    call.span_id = NewId();
+    return std::make_unique<CallInterceptor>(authorization_, ToString(call)).release();
   }
 
  private:
-  const std::string header_;
+  const std::string authorization_;
+  const TraceParent trace_;
 };
 
 }  // namespace
 
 std::vector<std::unique_ptr<ge::ClientInterceptorFactoryInterface>> SendToken(
-    const std::string& token) {
+    const std::string& token, const std::string& traceparent) {
   std::vector<std::unique_ptr<ge::ClientInterceptorFactoryInterface>> factories;
-  factories.push_back(std::make_unique<TokenFactory>(token));
+  factories.push_back(std::make_unique<CallFactory>(token, traceparent));
   return factories;
 }
 

@@ -1,4 +1,4 @@
-// Sends a bearer token with every call of a channel.
+// What is sent with every call of a channel: a bearer token, and the trace of the call.
 #ifndef CLIENT_TOKEN_INTERCEPTOR_H_
 #define CLIENT_TOKEN_INTERCEPTOR_H_
 
@@ -10,10 +10,11 @@
 
 namespace homing::client {
 
-// For CreateCustomChannelWithInterceptors. Works over plain text too, which gRPC's call credentials
-// refuse; the caller decides whether that is allowed.
+// For CreateCustomChannelWithInterceptors. An empty token is not sent; others are sent over plain
+// text too, which gRPC's call credentials refuse: the caller decides whether that is allowed.
+// `traceparent`: the trace that is continued; if it is not valid, a new one begins.
 std::vector<std::unique_ptr<grpc::experimental::ClientInterceptorFactoryInterface>> SendToken(
-    const std::string& token);
+    const std::string& token, const std::string& traceparent);
 
 }  // namespace homing::client
 

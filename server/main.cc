@@ -17,6 +17,7 @@
 #include "server/homing_server.h"
 #include "server/process/lock_checks.h"
 #include "server/process/open_files.h"
+#include "server/rpc/json_log.h"
 #include "server/rpc/library_log.h"
 #include "storage/database_url.h"
 
@@ -61,6 +62,9 @@ int Serve(const homing::server::ServerOptions& options) {
   const sigset_t signals = BlockStopSignals();
   homing::RaiseOpenFileLimit();
   homing::server::LimitLogOfLibraries();
+  if (options.log_format == "json") {
+    spdlog::default_logger()->set_formatter(homing::server::JsonLogFormatter());
+  }
   const bool first_start = IsNewDatabase(options);
   const auto server = HomingServer::Start(options);
   if (!server.ok()) {

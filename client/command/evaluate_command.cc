@@ -46,25 +46,35 @@ std::string Metres(const std::optional<double>& metres) {
   return metres ? absl::StrFormat("%.1f m", *metres) : "-";
 }
 
-std::string PlaceRow(const EvaluatedPlace& place) {
+// Without the truth: the believed step, and how far home it is.
+std::string PlaceRow(const EvaluatedPlace& place, bool judged) {
   const LocalizedAnswer& answer = place.answer;
-  return absl::StrFormat("%8d  %9s  %9s  %7s  %-13s  %8s  %5s  %5.2f", answer.sequence,
-                         Metres(place.true_m), Metres(place.believed_m), Metres(place.error_m()),
-                         answer.outcome, answer.landmark ? absl::StrCat(*answer.landmark) : "-",
+  const std::string where =
+      judged ? absl::StrFormat("%9s  %9s  %7s", Metres(place.true_m), Metres(place.believed_m),
+                               Metres(place.error_m()))
+             : absl::StrFormat("%9s  %9s", answer.step ? absl::StrCat(*answer.step) : "-",
+                               answer.progress_home
+                                   ? absl::StrFormat("%.0f %%", 100 * *answer.progress_home)
+                                   : "-");
+  return absl::StrFormat("%8d  %s  %-13s  %8s  %5s  %5.2f", answer.sequence, where, answer.outcome,
+                         answer.landmark ? absl::StrCat(*answer.landmark) : "-",
                          answer.similarity ? absl::StrFormat("%.2f", *answer.similarity) : "-",
                          answer.probability);
 }
 
 absl::Status PrintPlaces(const Session& session, const std::vector<EvaluatedPlace>& places,
-                         int rows) {
-  HOMING_RETURN_IF_ERROR(
-      session.Print(absl::StrFormat("%8s  %9s  %9s  %7s  %-13s  %8s  %5s  %5s", "sequence", "true",
-                                    "believed", "error", "outcome", "landmark", "P_T", "prob")));
+                         const EvaluateFlags& flags) {
+  const bool judged = !flags.truth_home.empty();
+  const std::string where = judged ? absl::StrFormat("%9s  %9s  %7s", "true", "believed", "error")
+                                   : absl::StrFormat("%9s  %9s", "step", "way home");
+  HOMING_RETURN_IF_ERROR(session.Print(absl::StrFormat(
+      "%8s  %s  %-13s  %8s  %5s  %5s", "sequence", where, "outcome", "landmark", "P_T", "prob")));
+  const int rows = flags.rows;
   const std::size_t wanted = rows == 0 ? places.size() : static_cast<std::size_t>(rows);
   const std::size_t stride =
       std::max<std::size_t>(1, (places.size() + wanted - 1) / std::max<std::size_t>(wanted, 1));
   for (std::size_t i = 0; i < places.size(); i += stride) {
-    HOMING_RETURN_IF_ERROR(session.Print(PlaceRow(places[i])));
+    HOMING_RETURN_IF_ERROR(session.Print(PlaceRow(places[i], judged)));
   }
   return absl::OkStatus();
 }
@@ -94,7 +104,7 @@ std::string VerdictText(const EvaluateFlags& flags, const std::vector<EvaluatedP
 absl::Status PrintVerdict(const Session& session, const EvaluateFlags& flags,
                           const std::vector<EvaluatedPlace>& places, const Verdict& verdict) {
   if (!session.json) {
-    HOMING_RETURN_IF_ERROR(PrintPlaces(session, places, flags.rows));
+    HOMING_RETURN_IF_ERROR(PrintPlaces(session, places, flags));
     return session.Print(VerdictText(flags, places, verdict));
   }
   const bool judged = !flags.truth_home.empty();

@@ -78,6 +78,7 @@ absl::StatusOr<std::vector<LocalizedAnswer>> ReadAnswers(std::istream& file,
     answer.step = Find<std::int64_t>(object, "step");
     answer.step_frame = Find<std::int64_t>(object, "step_frame");
     answer.probability = Find<double>(object, "probability").value_or(0);
+    answer.progress_home = Find<double>(object, "progress_home");
     answer.landmark = Find<std::int64_t>(object, "landmark");
     answer.similarity = Find<double>(object, "similarity");
     answers.push_back(std::move(answer));

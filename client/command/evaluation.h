@@ -35,6 +35,7 @@ struct LocalizedAnswer {
   // Frame of the outbound drive that made the step.
   std::optional<std::int64_t> step_frame;
   double probability = 0;
+  std::optional<double> progress_home;
   std::optional<std::int64_t> landmark;
   std::optional<double> similarity;
 };

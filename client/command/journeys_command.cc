@@ -50,10 +50,18 @@ absl::Status List(const Session& session, const JourneysFlags& flags) {
 }
 
 absl::Status ShowTable(const Session& session, const v1::Journey& journey,
+                       const v1::DescribeRouteResponse& route,
                        const std::vector<v1::Landmark>& landmarks) {
   HOMING_RETURN_IF_ERROR(session.Print(JourneyHeader()));
   HOMING_RETURN_IF_ERROR(session.Print(JourneyRow(journey)));
   HOMING_RETURN_IF_ERROR(session.Print(MapQuality(journey).Text()));
+  std::string cameras;
+  for (const v1::RouteSide& side : route.sides()) {
+    absl::StrAppend(&cameras, Word(side.side()), " looks ", Word(side.direction()), ", ");
+  }
+  if (route.map_bytes() > 0) {
+    HOMING_RETURN_IF_ERROR(session.Print(absl::StrCat(cameras, route.map_bytes(), " bytes")));
+  }
   HOMING_RETURN_IF_ERROR(session.Print(absl::StrFormat("\n%8s  %-5s  %15s  %12s  %6s", "landmark",
                                                        "side", "steps", "fingerprints", "spread")));
   for (const v1::Landmark& landmark : landmarks) {
@@ -102,18 +110,27 @@ absl::Status Show(const Session& session, const JourneysFlags& flags) {
   HOMING_ASSIGN_OR_RETURN(const Connection connection, session.Connect());
   JourneyClient client(&connection, session.stop);
   HOMING_ASSIGN_OR_RETURN(const v1::Journey journey, client.Get(flags.journey));
+  absl::StatusOr<v1::DescribeRouteResponse> described = client.DescribeRoute(flags.journey);
+  // By an older server.
+  if (absl::IsUnimplemented(described.status())) described = v1::DescribeRouteResponse();
+  HOMING_ASSIGN_OR_RETURN(const v1::DescribeRouteResponse route, std::move(described));
   std::vector<v1::Landmark> landmarks;
   HOMING_RETURN_IF_ERROR(
       client.ListLandmarks(flags.journey, false, [&](const v1::Landmark& landmark) {
         landmarks.push_back(landmark);
         return absl::OkStatus();
       }));
-  if (!session.json) return ShowTable(session, journey, landmarks);
+  if (!session.json) return ShowTable(session, journey, route, landmarks);
   Json line = ToJson(journey);
   line["settings"] = ToJson(journey.settings());
   const MapQuality quality(journey);
   line["quality"] = quality.good ? "GOOD" : "POOR";
   line["quality_reason"] = quality.reason;
+  line["cameras"] = Json::object();
+  for (const v1::RouteSide& side : route.sides()) {
+    line["cameras"][Word(side.side())] = Word(side.direction());
+  }
+  line["bytes"] = route.map_bytes();
   line["landmarks"] = Json::array();
   for (const v1::Landmark& landmark : landmarks) line["landmarks"].push_back(ToJson(landmark));
   return session.PrintJson(line);

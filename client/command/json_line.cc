@@ -53,6 +53,12 @@ std::string Word(v1::Journey::State state) {
   return state == v1::Journey::STATE_FINISHED ? "FINISHED" : "ACTIVE";
 }
 
+std::string Word(v1::CameraDirection direction) {
+  if (direction == v1::CAMERA_DIRECTION_ACROSS) return "ACROSS";
+  if (direction == v1::CAMERA_DIRECTION_ALONG) return "ALONG";
+  return direction == v1::CAMERA_DIRECTION_MIXED ? "MIXED" : "UNKNOWN";
+}
+
 Json ToJson(const v1::RecordJourneyResponse& answer) {
   Json landmarks = Json::array();
   for (const auto& landmark : answer.landmarks()) {

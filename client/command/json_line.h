@@ -23,6 +23,8 @@ std::string Word(v1::Outcome outcome);
 std::string Word(v1::Direction direction);
 // ACTIVE, FINISHED.
 std::string Word(v1::Journey::State state);
+// ACROSS, ALONG, MIXED, UNKNOWN.
+std::string Word(v1::CameraDirection direction);
 
 Json ToJson(const v1::RecordJourneyResponse& answer);
 Json ToJson(const v1::LocalizeResponse& answer);

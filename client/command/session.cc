@@ -21,6 +21,7 @@ std::string AdviceOn(const absl::Status& status) {
   if (absl::IsPermissionDenied(status)) {
     return "the server's operator can change roles, or list this robot among a journey's readers";
   }
+  if (absl::IsUnimplemented(status)) return "the server is older than this program";
   if (absl::IsResourceExhausted(status) && absl::StrContains(status.message(), "larger than max")) {
     return "a message was too large: --send flow sends far less, and the server takes more with "
            "--max-message";
@@ -76,6 +77,9 @@ void AddCommonFlags(CLI::App& app, Session& session) {
   app.add_option("--tls-key", connection.tls_key, "TLS: PEM file of this robot's key");
   app.add_option("--token-file", connection.token_file, "File of this robot's token")
       ->envname("HOMING_TOKEN_FILE");
+  app.add_option("--traceparent", connection.traceparent,
+                 "W3C trace that the calls belong to; otherwise a new one")
+      ->envname("TRACEPARENT");
   app.add_flag("--insecure", connection.insecure, "Send the token in plain text off this machine");
   app.add_option_function<double>(
          "--retry-seconds",

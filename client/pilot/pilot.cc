@@ -20,11 +20,17 @@ constexpr double kWatch = 0.25;
 constexpr double kLeastSpeedMps = 0.15;
 // Slows down towards home: m/s for each metre left.
 constexpr double kSpeedPerM = 0.5;
-// A sweep goes so far ahead and back, m, and swings the heading by so much, rad, over so many
-// metres.
+// The last of the way is driven as commanded, m: an answer is no better than its tolerance, and the
+// map ends.
+constexpr double kCloseM = 1.5;
+// A search sweeps so far back, and twice as far ahead, then further and further, m. It swings the
+// heading by so much, rad, over so many metres.
 constexpr double kSweepM = 1.5;
+constexpr double kMostSweepM = 6;
 constexpr double kSweepHeading = 0.2;
 constexpr double kSweepPeriodM = 1.5;
+// Lost again before it was sure for so long, m: the next search begins with a longer sweep.
+constexpr double kSureM = 5;
 
 }  // namespace
 
@@ -70,7 +76,8 @@ void Pilot::Take(const PilotAnswer& answer) {
   answer_time_s_ = std::max(round_s_, answer.time_s);
 }
 
-// The turns add up to the heading. Those of answers that were lost are taken from the commands.
+// The turns add up to the heading. Those of answers that were lost, and those that nothing showed,
+// are taken from the commands.
 void Pilot::TakeTurn(const PilotAnswer& answer) {
   const double since_s = answer.time_s - answer_time_s_;
   const auto observations = static_cast<double>(answer.sequence - last_sequence_);
@@ -78,7 +85,13 @@ void Pilot::TakeTurn(const PilotAnswer& answer) {
     known_.heading += (Turned(answer_time_s_, answer.time_s) + drift_ * since_s) *
                       (observations - 1) / observations;
   }
-  if (!answer.turn || answer.time_s < round_s_) return;
+  if (answer.time_s < round_s_) return;
+  if (!answer.turn) {
+    if (observations == 1 && !answer.is_standing) {
+      known_.heading += Turned(answer_time_s_, answer.time_s) + drift_ * since_s;
+    }
+    return;
+  }
   known_.heading += *answer.turn;
   const double since_turn_s = answer.time_s - turn_time_s_;
   if (last_sequence_ >= 0 && observations == 1 && since_turn_s > 0 && since_turn_s < 1 &&
@@ -98,9 +111,11 @@ void Pilot::TakePlace(const PilotAnswer& answer) {
   Watch(answer, expected);
   known_.offset_m =
       answer.path_offset ? *answer.path_offset * options_.distance_m : expected.offset_m;
-  known_.remaining_m = answer.progress_home && is_sure_
-                           ? (1 - *answer.progress_home) * options_.route_m
-                           : expected.remaining_m;
+  known_.remaining_m = expected.remaining_m;
+  if (!answer.progress_home || !is_sure_) return;
+  const double told_m = (1 - *answer.progress_home) * options_.route_m;
+  const bool is_close = told_m < kCloseM && std::abs(told_m - expected.remaining_m) < kCloseM;
+  if (!is_close) known_.remaining_m = told_m;
 }
 
 // Where the offsets run away from what the heading makes them, the heading is wrong: turns were
@@ -128,6 +143,7 @@ PilotCommand Pilot::Drive(double now_s) {
   now_ = Carried(known_, answer_time_s_, now_s);
   const double driven = std::abs(motion_.speed_mps) * dt;
   unsure_m_ = is_sure_ ? 0 : unsure_m_ + driven;
+  sure_m_ += is_sure_ ? driven : 0;
   PilotCommand command;
   if (state_ == State::kTurningRound) {
     command = TurnRound();
@@ -138,7 +154,7 @@ PilotCommand Pilot::Drive(double now_s) {
     } else if (is_late) {
       state_ = State::kWaiting;
     } else if (unsure_m_ > options_.patience_m) {
-      if (state_ != State::kSearching) searched_m_ = 0;
+      if (state_ != State::kSearching) BeginSearch();
       state_ = State::kSearching;
       searched_m_ += driven;
       command = Search();
@@ -186,14 +202,36 @@ PilotCommand Pilot::FollowPath(double speed_mps) const {
   return {Ahead() * speed_mps, std::clamp(rate, -options_.most_turn_rate, options_.most_turn_rate)};
 }
 
-// To and fro, with a heading that swings: one of them is the path's.
+// What stopped it a moment ago is passed by a longer sweep.
+void Pilot::BeginSearch() {
+  sweep_m_ = sure_m_ < kSureM ? std::clamp(2 * sweep_m_, kSweepM, kMostSweepM) : kSweepM;
+  sure_m_ = 0;
+  searched_m_ = 0;
+}
+
+// The ends lie two sweeps ahead of the start, one behind, four ahead, two behind, eight ahead.
+bool Pilot::SweepsBack() const {
+  double sweep = sweep_m_;
+  double leg = 2 * sweep;
+  bool is_back = false;
+  for (double left = searched_m_; left >= leg; is_back = !is_back) {
+    left -= leg;
+    leg = is_back ? 5 * sweep : 3 * sweep;
+    sweep *= is_back ? 2 : 1;
+  }
+  return is_back;
+}
+
+// To and fro along the path as it is carried on, with a heading that swings: one of them is the
+// path's.
 PilotCommand Pilot::Search() const {
-  const bool is_back = std::fmod(searched_m_, 2 * kSweepM) >= kSweepM;
+  const double ahead = SweepsBack() ? -Ahead() : Ahead();
   const double swing = kSweepHeading * std::sin(2 * std::numbers::pi * searched_m_ / kSweepPeriodM);
-  const double rate = options_.turn_gain * (swing - now_.heading);
+  const double wanted = std::clamp(swing - ahead * options_.heading_per_m * now_.offset_m,
+                                   -options_.most_heading, options_.most_heading);
+  const double rate = options_.turn_gain * (wanted - now_.heading);
   const double speed = options_.search_speed * options_.most_speed_mps;
-  return {is_back ? -Ahead() * speed : Ahead() * speed,
-          std::clamp(rate, -options_.most_turn_rate, options_.most_turn_rate)};
+  return {ahead * speed, std::clamp(rate, -options_.most_turn_rate, options_.most_turn_rate)};
 }
 
 }  // namespace homing::client

@@ -20,6 +20,8 @@ struct PilotAnswer {
   Outcome outcome = Outcome::kAmbiguous;
   // Turned on the spot.
   bool is_turning = false;
+  // Nothing has moved enough since the reference frame: a later answer tells what has turned.
+  bool is_standing = false;
   double probability = 0;
   // Way home, 0 at the far end, 1 at home.
   std::optional<double> progress_home;
@@ -61,7 +63,7 @@ struct PilotOptions {
   double unsure_speed = 0.5;
   double search_speed = 0.3;
   // Unsure for so many metres driven: stops and searches.
-  double patience_m = 2;
+  double patience_m = 4;
   // No answer for so long: slows down, stops. s.
   double slow_after_s = 0.6;
   double stop_after_s = 1.2;
@@ -110,6 +112,8 @@ class Pilot {
   void TakePlace(const PilotAnswer& answer);
   PilotCommand TurnRound();
   PilotCommand FollowPath(double speed_mps) const;
+  void BeginSearch();
+  bool SweepsBack() const;
   PilotCommand Search() const;
   double SpeedFor(double now_s) const;
   // +1 driving ahead, -1 in reverse.
@@ -134,6 +138,10 @@ class Pilot {
   // Driven since the pilot was last sure, m.
   double unsure_m_ = 0;
   double searched_m_ = 0;
+  // Driven while sure since the last search began, m.
+  double sure_m_ = 0;
+  // Of this search, the first one.
+  double sweep_m_ = 0;
   // Metres left of the path as the heading has them, held near what the answers say.
   double watched_m_ = 0;
   bool is_watching_ = false;

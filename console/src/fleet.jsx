@@ -17,6 +17,7 @@ function Row({ robot }) {
         : state.rank === 2 ? `${number(robot.recordedSteps)} steps` : <span class="dim">–</span>}</td>
       <td class="num wide">{state.rank < 4 && state.rank !== 2 ? percent(answer.probability ?? 0) : '–'}</td>
       <td class="num wide">{ago(robot.lastSeen)}</td>
+      <td class="num wide">{number(robot.openStreams)}</td>
       <td class="num wide">{number(robot.journeyCount)}</td>
     </tr>
   );
@@ -51,7 +52,7 @@ export function Fleet() {
           <div class="scroll" tabindex="0" role="region" aria-label="Robots">
             <table>
               <thead><tr><th scope="col">Robot</th><th scope="col">State</th><th scope="col" class="wide">Journey</th><th scope="col">Way home</th>
-                <th scope="col" class="num wide">Probability</th><th scope="col" class="num wide">Last seen</th><th scope="col" class="num wide">Journeys</th></tr></thead>
+                <th scope="col" class="num wide">Probability</th><th scope="col" class="num wide">Last seen</th><th scope="col" class="num wide">Streams</th><th scope="col" class="num wide">Journeys</th></tr></thead>
               <tbody>{shown.map((robot) => <Row key={robot.name} robot={robot} />)}</tbody>
             </table>
           </div>

@@ -1,6 +1,7 @@
 import { useEffect, useMemo, useRef, useState } from 'preact/hooks';
 import { call, callAll, useLoad } from './api.js';
-import { ago, Chart, colour, Empty, Facts, link, Loading, number, percent, short, themed } from './parts.jsx';
+import { directions, Profiles, readRoute, sideWord } from './route.jsx';
+import { ago, bytes, Chart, colour, Empty, Facts, link, Loading, number, percent, short, themed } from './parts.jsx';
 
 const stateWord = (journey) => (journey.state === 'STATE_FINISHED' ? 'finished' : 'active');
 const page = 200;
@@ -124,13 +125,14 @@ function qualityOf(journey) {
 
 export function Journey({ name, session }) {
   const { data, error } = useLoad(async () => {
-    const [journey, landmarks, aliasing] = await Promise.all([
+    const [journey, landmarks, aliasing, described] = await Promise.all([
       call('JourneyService/GetJourney', { name }),
       callAll('JourneyService/ListLandmarks', 'landmarks', { parent: name, includeFingerprints: true }).catch((e) => { if (e.status === 403) return []; throw e; }),
       call('JourneyService/AnalyzeAliasing', { name }).catch(() => null),
+      call('JourneyService/DescribeRoute', { name }).catch(() => null),
     ]);
     for (const l of landmarks) { l.steps = (l.steps ?? []).map(Number); l.firstStep = Number(l.firstStep ?? 0); l.lastStep = Number(l.lastStep ?? 0); }
-    return { journey, landmarks, aliasing };
+    return { journey, landmarks, aliasing, described, route: readRoute(described) };
   }, [name]);
   const [said, say] = useState('');
   const counts = useMemo(() => {
@@ -141,7 +143,9 @@ export function Journey({ name, session }) {
     return { x: sum.map((_, i) => i * each), y: sum.map((v) => v / each) };
   }, [data]);
   if (!data) return <Loading what="The journey" error={error} />;
-  const { journey, landmarks, aliasing } = data;
+  const { journey, landmarks, aliasing, described, route } = data;
+  const sides = Object.entries(route.sides);
+  const longest = Math.max(0, ...sides.map(([, s]) => s.flow.length));
   const twins = aliasing?.twins ?? [];
   const change = async (method, what) => {
     if (!confirm(`${what} ${short(name)}?`)) return;
@@ -151,7 +155,8 @@ export function Journey({ name, session }) {
     <>
       <section class="card"><Facts facts={[
         ['State', stateWord(journey)], ['Quality', qualityOf(journey)], ['Steps', number(journey.stepCount)], ['Landmarks', number(journey.landmarkCount)],
-        ['Fingerprints', `${number(journey.fingerprintCount)} (${number(16 * Number(journey.fingerprintCount ?? 0))} bytes)`], ['Created', ago(journey.createTime)],
+        ['Fingerprints', number(journey.fingerprintCount)], ['Map', described ? bytes(Number(described.mapBytes ?? 0)) : undefined],
+        ['Cameras look', directions(described)], ['Created', ago(journey.createTime)],
         ['Readers', (journey.readers ?? []).join(', ') || 'the owner alone'],
         ['Places known after', aliasing?.medianSteps ? `${aliasing.medianSteps} steps in half of the places` : undefined],
         ['Indistinct places', aliasing ? percent(aliasing.indistinctShare ?? 0, 1) : undefined]]} />
@@ -164,13 +169,19 @@ export function Journey({ name, session }) {
       {landmarks.length === 0 ? <Empty title="No landmarks" command={`homing journeys show ${name}`}>Nothing was recorded yet, or this login may not read the map.</Empty> : (
         <>
           <Strip journey={journey} landmarks={landmarks} twins={twins} />
-          <Chart title="Fingerprints at each step" x={counts.x} xLabel="step from home" yLabel="fingerprints" series={[{ label: 'fingerprints a step', colour: 'accent', values: counts.y, bars: true }]} />
+          <Chart title="Fingerprints at each step" x={counts.x} xLabel="step from home" yLabel="fingerprints" range={(_, __, max) => [0, Math.max(max, 1)]} series={[{ label: 'fingerprints a step', colour: 'accent', values: counts.y, bars: true }]} />
+        </>)}
+      {longest > 0 && (
+        <>
+          <Profiles route={route} steps={Number(journey.stepCount ?? 0)} />
+          <Chart title="Flow from step to step" x={Array.from({ length: longest }, (_, i) => i * route.each)} xLabel="step from home" yLabel="median flow, px"
+            series={sides.map(([side, s], i) => ({ label: sideWord(side), colour: i ? 'warn' : 'accent', dash: i ? [6, 4] : undefined, values: s.flow.map(Math.abs) }))} />
         </>)}
       {twins.length > 0 && (
         <section class="card"><h2>Places that look alike</h2>
-          <div class="scroll"><table><thead><tr><th scope="col" class="num">Step</th><th scope="col" class="num">Looks like</th><th scope="col" class="num">Confusion</th><th scope="col">Compare</th></tr></thead>
+          <div class="scroll"><table><thead><tr><th scope="col" class="num">Step</th><th scope="col" class="num">Looks like</th><th scope="col" class="num">Confusion</th><th scope="col"><span class="sr">Comparison</span></th></tr></thead>
             <tbody>{twins.map((t) => <tr key={t.firstStep + '-' + t.secondStep}><td class="num">{number(t.firstStep)}</td><td class="num">{number(t.secondStep)}</td><td class="num">{percent(t.confusion ?? 0)}</td>
-              <td><a href={`#/match/${name}?a=${t.firstStep ?? 0}&b=${t.secondStep ?? 0}`}>steps {t.firstStep ?? 0} and {t.secondStep ?? 0}</a></td></tr>)}</tbody></table></div>
+              <td><a href={`#/match/${name}?a=${t.firstStep ?? 0}&b=${t.secondStep ?? 0}`} aria-label={`Compare steps ${t.firstStep ?? 0} and ${t.secondStep ?? 0}`}>compare</a></td></tr>)}</tbody></table></div>
         </section>)}
       <p><a href={link('match', name)}>Compare two steps of this journey</a></p>
     </>

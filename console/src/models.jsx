@@ -1,6 +1,7 @@
 import { useState } from 'preact/hooks';
 import { call, callAll, useLoad } from './api.js';
 import { Chart, Empty, Facts, Loading, number, short } from './parts.jsx';
+import { readRoute, View } from './route.jsx';
 
 const paper = { name: 'deviationModels/default', mu: 2.24, sigma: 0.86 };
 
@@ -42,24 +43,6 @@ const at = (landmarks, step) => landmarks.flatMap((l) => {
   return i < 0 ? [] : [{ id: l.landmark ?? 0, side: l.side, x: l.xs?.[i] ?? 0, y: l.ys?.[i] ?? 0, count: l.counts?.[i] ?? 0 }];
 });
 
-function View({ title, seen, camera, pairs, own }) {
-  const w = camera?.width || 640, h = camera?.height || 480;
-  const partner = new Map(pairs.filter((p) => p.pt >= 0.2).map((p) => [p[own].id, p]));
-  return (
-    <figure class="chart"><figcaption>{title}</figcaption>
-      <svg class="view" viewBox={`0 0 ${w} ${h}`} role="img" aria-label={`${title}: ${seen.length} landmarks`}>
-        <rect width={w} height={h} class="frame" />
-        {seen.map((f) => (
-          <g key={f.id} class={partner.has(f.id) ? 'paired' : 'single'}>
-            <circle cx={f.x} cy={f.y} r={(Math.sqrt(f.count) * w) / 240} />
-            <text x={Math.min(f.x + w / 60, w * 0.92)} y={Math.max(f.y, h / 20)} font-size={w / 28}>{f.id}</text>
-          </g>))}
-      </svg>
-      {seen.length === 0 && <p class="dim">No landmark at this step.</p>}
-    </figure>
-  );
-}
-
 export function Match({ name, query }) {
   const [a, setA] = useState(Number(query.get('a') ?? 0));
   const [b, setB] = useState(Number(query.get('b') ?? 1));
@@ -70,7 +53,11 @@ export function Match({ name, query }) {
     const model = await call('DeviationModelService/GetDeviationModel', { name: journey.settings?.deviationModel || paper.name }).catch(() => paper);
     return { journey, landmarks, model };
   }, [name]);
+  const views = useLoad(() => Promise.all([a, b].map((step) =>
+    call('JourneyService/DescribeRoute', { name, firstStep: step, lastStep: step }).then(readRoute, () => readRoute(null)))), [name, a, b]);
   if (!data) return <Loading what="The journey" error={error} />;
+  const [routeA, routeB] = views.data ?? [readRoute(null), readRoute(null)];
+  const partners = (own) => new Set(pairs.filter((p) => p.pt >= 0.2).map((p) => p[own].id));
   const last = Math.max(0, Number(data.journey.stepCount ?? 0) - 1);
   const first = at(data.landmarks, a), second = at(data.landmarks, b);
   const pairs = first.flatMap((l) => second.filter((r) => r.side === l.side).map((r) => {
@@ -79,16 +66,17 @@ export function Match({ name, query }) {
     return { l, r, delta, p, pt: (p * Math.min(l.count, r.count)) / Math.max(l.count, r.count, 1) };
   })).sort((p, q) => q.pt - p.pt);
   const input = (label, value, set) => <label>{label} <input type="number" min="0" max={last} value={value} onInput={(e) => set(Math.min(last, Math.max(0, Math.round(Number(e.currentTarget.value)))))} /></label>;
-  const sides = [['SIDE_LEFT', 'left', data.journey.settings?.leftCamera], ['SIDE_RIGHT', 'right', data.journey.settings?.rightCamera]].filter(([side]) => first.concat(second).some((f) => f.side === side));
+  const sides = [['SIDE_LEFT', 'left', data.journey.settings?.leftCamera], ['SIDE_RIGHT', 'right', data.journey.settings?.rightCamera]]
+    .filter(([side]) => first.concat(second).some((f) => f.side === side) || routeA.sides[side] || routeB.sides[side]);
   return (
     <>
       <div class="buttons">{input('First step', a, setA)} {input('Second step', b, setB)} <span class="dim">0 to {number(last)}</span></div>
-      <p class="dim">Circles are landmarks at the mean of their flow vectors; the area is the number of vectors. The server keeps fingerprints, not the vectors themselves. Filled: P<sub>T</sub> of at least 0.20 with one of the other step.</p>
+      <p class="dim">Circles are landmarks at the mean of their flow vectors; the area is the number of vectors. The server keeps no vectors, but a coarse flow profile: a line is the mean flow of a cell, thick where many vectors are; the bars are the vectors along x, and the dashed line is the valley that divides two landmarks. Filled circles: P<sub>T</sub> of at least 0.20 with one of the other step.</p>
       {sides.length === 0 && <Empty title="Nothing to compare" command={`homing journeys show ${name}`}>Neither step has a landmark. The landmarks' steps are listed by:</Empty>}
       {sides.map(([side, word, camera]) => (
         <div class="grid" key={side}>
-          <View title={`Step ${a}, ${word}`} seen={first.filter((f) => f.side === side)} camera={camera} pairs={pairs} own="l" />
-          <View title={`Step ${b}, ${word}`} seen={second.filter((f) => f.side === side)} camera={camera} pairs={pairs} own="r" />
+          <View title={`Step ${a}, ${word}`} seen={first.filter((f) => f.side === side)} camera={camera} partners={partners('l')} route={routeA} side={side} />
+          <View title={`Step ${b}, ${word}`} seen={second.filter((f) => f.side === side)} camera={camera} partners={partners('r')} route={routeB} side={side} />
         </div>))}
       {pairs.length > 0 && (
         <div class="scroll" tabindex="0" role="region" aria-label="Pairs of landmarks"><table>

@@ -58,13 +58,14 @@ export const Facts = ({ facts }) => (
 export const colour = (name) => getComputedStyle(document.documentElement).getPropertyValue('--' + name).trim();
 export const themed = () => document.documentElement.dataset.theme + matchMedia('(prefers-color-scheme: dark)').matches;
 
+const clock = (_, times) => times.map((t) => (t % 1 ? '' : new Date(t * 1000).toLocaleTimeString('en-GB')));
 // A uPlot chart; `series` is [{label, colour, values, bars, dash, scale}], all over `x`.
-export function Chart({ title, x, series, xLabel, yLabel, range, height = 200, time = false, describe }) {
+export function Chart({ title, x, series, xLabel, xRange, yLabel, range, height = 200, time = false, describe }) {
   const box = useRef();
   const plot = useRef();
   const made = useRef('');
   useEffect(() => {
-    const key = [title, series.map((s) => s.label), themed(), height].join();
+    const key = [title, xRange, series.map((s) => s.label), themed(), height].join();
     const data = [x, ...series.map((s) => s.values)];
     if (plot.current && made.current === key) {
       plot.current.setData(data);
@@ -78,10 +79,10 @@ export function Chart({ title, x, series, xLabel, yLabel, range, height = 200, t
     });
     plot.current = new uPlot({
       width: box.current.clientWidth || 300, height,
-      scales: { x: { time }, y: { range: range ?? undefined } },
-      axes: [{ ...axis(xLabel), size: 30 }, axis(yLabel)],
+      scales: { x: { time, range: xRange }, y: { range: range ?? undefined } },
+      axes: [{ ...axis(xLabel), size: 30, ...(time && { values: clock, space: 70 }) }, axis(yLabel)],
       legend: { show: series.length > 1 }, cursor: { y: false },
-      series: [{ label: xLabel }, ...series.map((s) => ({
+      series: [{ label: xLabel, ...(time && { value: (_, t) => (t == null ? '–' : new Date(t * 1000).toLocaleTimeString('en-GB')) }) }, ...series.map((s) => ({
         label: s.label, stroke: colour(s.colour), width: s.bars ? 0 : 2, dash: s.dash, points: { show: false },
         fill: s.bars ? colour(s.colour) : undefined, paths: s.bars ? uPlot.paths.bars({ size: [0.9, 60] }) : undefined,
         value: (_, v) => (v == null ? '–' : +v.toPrecision(3)),

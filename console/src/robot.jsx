@@ -45,20 +45,20 @@ function Live({ robot, answer, belief, history }) {
           ['Probability', percent(answer.probability ?? 0)],
           ['Off every route', percent(answer.unknownProbability ?? 0)],
           ['Direction', words[answer.direction]],
-          ['Speed ratio', answer.speedRatio?.toFixed(2)],
-          ['Turn', answer.turn?.toFixed(3)],
-          ['Path offset', answer.pathOffset?.toFixed(2)],
+          ['Speed ratio, steps an observation', answer.speedRatio?.toFixed(2)],
+          ['Turn, rad (px if uncalibrated)', answer.turn?.toFixed(3)],
+          ['Path offset, of the distance seen', answer.pathOffset?.toFixed(2)],
           ['Way home', <Progress value={answer.progressHome} label="Progress home" />],
         ]} />
       </section>
       <Matches matches={answer.matches} />
-      {masses.length > 0 && <Chart title="Belief over the route" x={x} xLabel="step from home" yLabel="probability"
+      {masses.length > 0 && <Chart title="Belief over the route" x={x} xLabel="step from home" xRange={[0, Number(belief.stepCount ?? 1)]} yLabel="probability"
         series={[{ label: 'probability', colour: 'accent', values: masses, bars: true }]} range={(_, __, max) => [0, Math.max(max, 0.01)]}
         describe={`Belief over the route; most probable at step ${answer.step ?? 'unknown'}`} />}
       <Chart title="Probability of the place" x={t} time xLabel="time" yLabel="probability" range={() => [0, 1]} series={[
         { label: 'at this place', colour: 'accent', values: history.map((h) => h.p) },
         { label: 'off every route', colour: 'bad', values: history.map((h) => h.off), dash: [6, 4] }]} />
-      {history.some((h) => h.speed !== null) && <Chart title="Speed ratio" x={t} time xLabel="time" yLabel="steps an observation"
+      {history.some((h) => h.speed !== null) && <Chart title="Speed ratio" x={t} time xLabel="time" yLabel="steps an observation" range={(_, min, max) => [Math.min(min, -1.5), Math.max(max, 1.5)]}
         series={[{ label: 'speed ratio', colour: 'accent', values: history.map((h) => h.speed) }]} />}
     </div>
   );
@@ -81,8 +81,8 @@ export function Robot({ name }) {
   const answer = update.answer ?? robot.answer;
   return (
     <>
-      <p class="lead"><Badge state={stateOf(robot)} /> last seen {ago(robot.lastSeen)} · {number(robot.journeyCount)} journeys
-        · {number(robot.observationCount)} observations since the server started</p>
+      <p class="lead"><Badge state={stateOf(robot)} /> last seen {ago(robot.lastSeen)} · {number(robot.journeyCount)} {robot.journeyCount === '1' ? 'journey' : 'journeys'}{' · '}
+        {number(robot.observationCount)} observations since the server started</p>
       {robot.lostSince && <p class="error" role="alert">Lost {ago(robot.lostSince)}: what it sees fits no place of its route.</p>}
       {robot.activity === 'ACTIVITY_RECORDING' && <p>It records <a href={link('journey', robot.journey)}>{short(robot.journey)}</a>: {number(robot.recordedSteps)} steps.</p>}
       {answer ? <Live robot={robot} answer={answer} belief={belief} history={history.current} /> : (

@@ -8,7 +8,8 @@ namespace {
 
 // Weight of the last reading in the usual one.
 constexpr double kLastReading = 0.3;
-constexpr double kMostMoved = 1;
+// The filter's fastest speed.
+constexpr double kMostMoved = 8;
 // Evidence of an observation: steps moved over correlation length, times this.
 constexpr double kEvidencePerLength = 1.5;
 constexpr double kLeastEvidence = 0.01;
@@ -24,14 +25,14 @@ double MeanReading(std::span<const std::int16_t> readings, const StepMass& mass)
 }  // namespace
 
 double EvidenceWeight(double moved, double correlation_steps) {
-  return std::clamp(kEvidencePerLength * moved / correlation_steps, kLeastEvidence, 1.0);
+  return std::clamp(kEvidencePerLength * std::abs(moved) / correlation_steps, kLeastEvidence, 1.0);
 }
 
 std::optional<double> DistanceMoved::Update(std::span<const RouteScale> routes,
                                             std::span<const StepMass> masses,
                                             const SeenProfiles& profiles) {
   usual_.resize(routes.size());
-  double sum = 0, all = 0;
+  double sum = 0, all = 0, way = 0;
   for (std::size_t i = 0; i < routes.size(); ++i) {
     const double mass = masses[i].Sum();
     for (std::size_t side = 0; side < profiles.size(); ++side) {
@@ -42,12 +43,15 @@ std::optional<double> DistanceMoved::Update(std::span<const RouteScale> routes,
       usual = usual ? *usual + kLastReading * (now - *usual) : now;
       sum += *usual * mass - MeanReading(routes[i].sides[side]->usual_readings, masses[i]);
       all += mass;
+      way += mass * routes[i].sides[side]->odometer.Way(profiles[side]->odometer());
     }
   }
   if (!(all > 0)) {
     return std::nullopt;
   }
-  return std::min(kMostMoved, std::exp2(sum / all / CameraOdometer::kPerOctave));
+  const double moved = std::min(kMostMoved, std::exp2(sum / all / CameraOdometer::kPerOctave));
+  way_ += kLastReading * (way / all - way_);
+  return way_ < 0 ? -moved : moved;
 }
 
 }  // namespace homing

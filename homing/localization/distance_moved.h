@@ -24,14 +24,16 @@ double EvidenceWeight(double moved, double correlation_steps);
 // the robot may be. Not thread-safe.
 class DistanceMoved {
  public:
-  // Steps of this observation, at most 1: one observation shows no more than one step of the map
-  // did. `masses`: by journey, where the robot may be. None without a reading.
+  // Steps of this observation, -8 to 8. Negative: the other way past what is seen. `masses`: by journey, where the robot may be. None
+  // without a reading.
   std::optional<double> Update(std::span<const RouteScale> routes, std::span<const StepMass> masses,
                                const SeenProfiles& profiles);
 
  private:
   // By journey and side.
   std::vector<std::array<std::optional<double>, 2>> usual_;
+  // As it has been lately, -1 to 1.
+  double way_ = 0;
 };
 
 }  // namespace homing

@@ -48,6 +48,8 @@ constexpr double kDrivenAtStart = 0.06;
 // distances of what is seen.
 constexpr double kMapTurn = 0.002;
 constexpr double kMapTurnError = 0.1;
+// Deviation of a turn that nothing shows, rad an observation.
+constexpr double kUnseenTurn = 0.03;
 // Opposite sideways flows that differ by less say nothing of the motion, pixels.
 constexpr double kLeastAdvancePx = 1;
 
@@ -160,6 +162,14 @@ void PathPoseFilter::Forget() {
   offset_variance_ = kFirstOffset * kFirstOffset;
   heading_variance_ = kFirstHeading * kFirstHeading;
   covariance_ = 0;
+}
+
+std::optional<double> PathPoseFilter::TurnAlone(const ObservedFlow& flow) {
+  const VerticalTurn vertical = ReadVerticalTurn(flow, cameras_);
+  heading_variance_ += std::min(vertical.variance, kUnseenTurn * kUnseenTurn);
+  if (!(vertical.variance < kUnseenTurn * kUnseenTurn)) return std::nullopt;
+  pose_.heading = std::clamp(pose_.heading + vertical.turn, -kMostHeading, kMostHeading);
+  return vertical.turn;
 }
 
 // A turn to the left moves what is seen to higher x, in both cameras.

@@ -15,10 +15,12 @@ namespace {
 constexpr double kNoMass = 1e-12;
 // Log odds an observation of full weight: for each unit of shared change, which is bounded, and of
 // the fit where the robot was expected, as a part of the most evidence there is; at most one unit.
+// A place that has changed fits badly too: a bad fit says less than a good one.
 constexpr double kMembershipGain = 0.5;
 constexpr double kSharedUnit = 0.1;
 constexpr double kMostShared = 2;
-constexpr double kUsualFit = 0.35;
+constexpr double kUsualFit = 0.22;
+constexpr double kLeastFit = -0.3;
 constexpr double kFitUnit = 0.4;
 // Steps around the believed one that count for it, correlation lengths.
 constexpr double kNearSteps = 1;
@@ -197,7 +199,7 @@ std::optional<double> PositionFilter::SharedBy(std::span<const JourneyRef> journ
 
 void PositionFilter::AddMembership(double weight, std::optional<double> shared, double fit) {
   const double most = ProfileRatio::kMostEvidence * weight * profile_likelihood_.compared();
-  double evidence = std::clamp((std::log(fit) / most - kUsualFit) / kFitUnit, -1.0, 1.0);
+  double evidence = std::clamp((std::log(fit) / most - kUsualFit) / kFitUnit, kLeastFit, 1.0);
   if (shared) evidence += std::clamp(*shared / kSharedUnit, -kMostShared, kMostShared);
   membership_.Add(kMembershipGain * weight * evidence);
 }
@@ -205,7 +207,8 @@ void PositionFilter::AddMembership(double weight, std::optional<double> shared, 
 void PositionFilter::CorrectByProfiles(std::span<const JourneyRef> journeys,
                                        const SeenProfiles& profiles) {
   const double moved = distance_.Update(profile_likelihood_.routes(), masses_, profiles)
-                           .value_or(std::min(1.0, speed_.absolute));
+                           .value_or(std::copysign(std::min(1.0, speed_.absolute), last_moved_));
+  last_moved_ = moved;
   const double weight = WeightOfObservation(moved);
   profile_likelihood_.Compute(journeys, profiles, masses_, weight);
   const double fit = MeanFactor([this](std::size_t i) { return profile_likelihood_.of(i); });

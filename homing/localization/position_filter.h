@@ -139,8 +139,9 @@ class PositionFilter {
   RouteMembership membership_;
   DistanceMoved distance_;
   SharedChange shared_change_;
-  // Steps since the first observation.
+  // Steps from the first observation on, and those of the last one, as DistanceMoved tells them.
   double moved_ = 0;
+  double last_moved_ = 1;
   // By journey: where, if on a route at all. Together the mass is 1.
   std::vector<RouteBelief> beliefs_;
   // After the last observation, by journey.

@@ -12,7 +12,7 @@ namespace {
 // octaves. A fraction kOutlierFraction of the ratios is six times as wide.
 constexpr double kWidthOfNoise = 4;
 constexpr double kLeastWidth = 0.115;
-constexpr double kOutlierFraction = 0.3;
+constexpr double kOutlierFraction = 0.05;
 constexpr double kOutlierWidth = 6;
 // A slower robot counts as standing, log2 of steps an observation.
 constexpr double kStanding = -3.6;
@@ -20,7 +20,9 @@ constexpr double kStanding = -3.6;
 constexpr double kHalfNoise = 0.087;
 // Consecutive ratios of a poor odometer err alike: exponent of what one says.
 constexpr double kPoorWeight = 0.3;
+// Probability an observation that the speed changes: with a poor odometer, and with a good one.
 constexpr double kPoorChange = 0.05;
+constexpr double kGoodChange = 0.3;
 
 double Likelihood(double error, double width) {
   return (1 - kOutlierFraction) * std::exp(-error / width) +
@@ -32,7 +34,7 @@ double Likelihood(double error, double width) {
 SpeedEvidence::SpeedEvidence(double noise) {
   const double good = 1 / (1 + std::pow(noise / kHalfNoise, 2));
   const double weight = kPoorWeight + (1 - kPoorWeight) * good;
-  change_ = kPoorChange + (1 - kPoorChange) * good;
+  change_ = kPoorChange + (kGoodChange - kPoorChange) * good;
   const double width = std::max(kLeastWidth, kWidthOfNoise * noise);
   for (std::size_t speed = 0; speed < kSpeedCount; ++speed) {
     for (std::size_t index = 0; index < kNoRatio; ++index) {

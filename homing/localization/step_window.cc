@@ -8,8 +8,9 @@
 namespace homing {
 namespace {
 
-// Where the mass is narrow many windows hold all of it: what its middle step adds to a window.
-constexpr double kOfMiddle = 1e-3;
+// Where the mass is narrow, many windows hold nearly all of it. Windows that hold this much less
+// than the best one count as equal.
+constexpr double kSlack = 0.002;
 
 // Sums of the mass below each step of the focus.
 class MassBelow {
@@ -46,17 +47,30 @@ StepWindow WindowAround(std::int64_t step, std::int64_t half, std::int64_t step_
 
 StepWindow BestWindow(const StepMass& mass, std::int64_t half, std::int64_t step_count) {
   const MassBelow below(mass);
-  StepWindow best;
-  double best_score = 0;
-  for (std::int64_t s = mass.first; s < mass.first + std::ssize(mass.mass); ++s) {
-    StepWindow window = WindowAround(s, half, step_count);
+  const auto around = [&](std::int64_t step) {
+    StepWindow window = WindowAround(step, half, step_count);
     window.mass = below.Within(window.first, window.last);
-    const double score =
-        window.mass + kOfMiddle * double{mass.mass[static_cast<std::size_t>(s - mass.first)]};
-    if (score > best_score) {
-      best_score = score;
-      best = window;
-    }
+    return window;
+  };
+  const std::int64_t end = mass.first + std::ssize(mass.mass);
+  StepWindow best;
+  for (std::int64_t step = mass.first; step < end; ++step) {
+    const StepWindow window = around(step);
+    if (window.mass > best.mass) best = window;
+  }
+  if (!(best.mass > 0)) return best;
+  double sum = 0;
+  for (std::int64_t step = std::max(best.first, mass.first); step <= best.last && step < end;
+       ++step) {
+    sum +=
+        double{mass.mass[static_cast<std::size_t>(step - mass.first)]} * static_cast<double>(step);
+  }
+  const std::int64_t middle = std::lround(sum / best.mass);
+  const double least = best.mass - kSlack;
+  while (best.step != middle) {
+    const StepWindow nearer = around(best.step + (middle < best.step ? -1 : 1));
+    if (nearer.mass < least) break;
+    best = nearer;
   }
   return best;
 }

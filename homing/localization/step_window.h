@@ -17,8 +17,8 @@ struct StepWindow {
   double mass = -1;
 };
 
-// The window of the greatest mass; of those that hold as much, the one about the likeliest step.
-// Nothing for no steps. `half` >= 0; `step_count`: of the journey, which
+// The window of the greatest mass; of those that hold nearly as much, the one about the middle of
+// that mass. Nothing for no steps. `half` >= 0; `step_count`: of the journey, which
 // holds no mass beside this.
 StepWindow BestWindow(const StepMass& mass, std::int64_t half, std::int64_t step_count);
 

@@ -18,45 +18,55 @@ constexpr double kLeastNoisePx = 0.1;
 
 }  // namespace
 
+namespace {
+
+// Of one camera.
+VerticalTurn ReadOne(const FlowField& field, const Camera& camera) {
+  const auto& in = camera.intrinsics;
+  const double focal = in ? in->focal_x : PathPoseFilter::UsualFocal(field.width);
+  const double center_x = in ? in->center_x : 0.5 * (field.width - 1);
+  const double center_y = in ? in->center_y : 0.5 * (field.height - 1);
+  // v = turn x y + tilt (1 + y^2) - roll x, in focal lengths; then again without what lies far
+  // off.
+  Eigen::Vector3d fit = Eigen::Vector3d::Zero();
+  double noise = kFirstNoisePx / focal;
+  for (int pass = 0; pass < 3; ++pass) {
+    Eigen::Matrix3d normal = 1e-9 * Eigen::Matrix3d::Identity();
+    Eigen::Vector3d right = Eigen::Vector3d::Zero();
+    double squares = 0;
+    int used = 0;
+    for (const FlowVector& v : field.vectors) {
+      const double x = (v.MidX() - center_x) / focal, y = (v.MidY() - center_y) / focal;
+      const Eigen::Vector3d row(x * y, 1 + y * y, -x);
+      const double error = v.FlowY() / focal - row.dot(fit);
+      if (!(std::abs(error) < 3 * noise)) continue;
+      normal += row * row.transpose();
+      right += row * (v.FlowY() / focal);
+      squares += error * error;
+      ++used;
+    }
+    if (used < OdometerReading::kLeastVectors) return {};
+    fit = normal.ldlt().solve(right);
+    if (pass > 0) noise = std::max(kLeastNoisePx / focal, std::sqrt(squares / used));
+    if (pass == 2) {
+      const double variance = noise * noise * normal.inverse()(0, 0);
+      if (variance > 0 && std::isfinite(fit[0])) return {fit[0], variance};
+    }
+  }
+  return {};
+}
+
+}  // namespace
+
 VerticalTurn ReadVerticalTurn(const ObservedFlow& flow, const std::array<Camera, 2>& cameras) {
   double weight = 0, sum = 0;
   for (std::size_t camera = 0; camera < 2; ++camera) {
-    const FlowField& field = *flow.fields[camera];
-    const auto& in = cameras[camera].intrinsics;
-    const double focal = in ? in->focal_x : PathPoseFilter::UsualFocal(field.width);
-    const double center_x = in ? in->center_x : 0.5 * (field.width - 1);
-    const double center_y = in ? in->center_y : 0.5 * (field.height - 1);
-    // v = turn x y + tilt (1 + y^2) - roll x, in focal lengths; then again without what lies far
-    // off.
-    Eigen::Vector3d fit = Eigen::Vector3d::Zero();
-    double noise = kFirstNoisePx / focal;
-    for (int pass = 0; pass < 3; ++pass) {
-      Eigen::Matrix3d normal = 1e-9 * Eigen::Matrix3d::Identity();
-      Eigen::Vector3d right = Eigen::Vector3d::Zero();
-      double squares = 0;
-      int used = 0;
-      for (const FlowVector& v : field.vectors) {
-        const double x = (v.MidX() - center_x) / focal, y = (v.MidY() - center_y) / focal;
-        const Eigen::Vector3d row(x * y, 1 + y * y, -x);
-        const double error = v.FlowY() / focal - row.dot(fit);
-        if (!(std::abs(error) < 3 * noise)) continue;
-        normal += row * row.transpose();
-        right += row * (v.FlowY() / focal);
-        squares += error * error;
-        ++used;
-      }
-      if (used < OdometerReading::kLeastVectors) return {};
-      fit = normal.ldlt().solve(right);
-      if (pass > 0) noise = std::max(kLeastNoisePx / focal, std::sqrt(squares / used));
-      if (pass == 2) {
-        const double variance = noise * noise * normal.inverse()(0, 0);
-        if (!(variance > 0 && std::isfinite(fit[0]))) return {};
-        weight += 1 / variance;
-        sum += fit[0] / variance;
-      }
-    }
+    if (!flow.fields[camera]) continue;
+    const VerticalTurn one = ReadOne(*flow.fields[camera], cameras[camera]);
+    weight += 1 / one.variance;
+    sum += one.turn / one.variance;
   }
-  return {sum / weight, 1 / weight};
+  return weight > 0 ? VerticalTurn{sum / weight, 1 / weight} : VerticalTurn{};
 }
 
 }  // namespace homing

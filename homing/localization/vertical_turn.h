@@ -16,7 +16,7 @@ struct VerticalTurn {
   double variance = 1;
 };
 
-// REQUIRES: both cameras have flow.
+// A camera without flow says nothing.
 VerticalTurn ReadVerticalTurn(const ObservedFlow& flow, const std::array<Camera, 2>& cameras);
 
 }  // namespace homing

@@ -31,17 +31,18 @@ double MedianOf(std::vector<float>& values) {
   return double{Median(std::span<const float>(values))};
 }
 
-// |mean sign| of the readings' values, 0 to 1.
+int SignOf(int value) { return value > 0 ? 1 : value < 0 ? -1 : 0; }
+
+// Mean sign of the readings' values, -1 to 1.
 template <typename Value>
-double Steadiness(std::span<const FlowProfile> profiles, Value value) {
+double MeanSign(std::span<const FlowProfile> profiles, Value value) {
   double sum = 0, count = 0;
   for (const FlowProfile& profile : profiles) {
     if (!profile.odometer.has_value()) continue;
-    const int v = value(profile.odometer);
-    sum += v > 0 ? 1 : v < 0 ? -1 : 0;
+    sum += SignOf(value(profile.odometer));
     count += 1;
   }
-  return count > 0 ? std::abs(sum) / count : 0;
+  return count > 0 ? sum / count : 0;
 }
 
 // Median absolute second difference of the readings, codes.
@@ -183,8 +184,9 @@ float DistanceAt(const SelfDistances& self, std::int64_t lag) {
 }  // namespace
 
 CameraOdometer::CameraOdometer(std::span<const FlowProfile> profiles) {
-  const double across = Steadiness(profiles, [](const auto& r) { return int{r.median_x}; });
-  const double along = Steadiness(profiles, [](const auto& r) { return int{r.expansion}; });
+  across_ = MeanSign(profiles, [](const auto& r) { return int{r.median_x}; });
+  along_ = MeanSign(profiles, [](const auto& r) { return int{r.expansion}; });
+  const double across = std::abs(across_), along = std::abs(along_);
   if (across == 0 && along == 0) {
     return;
   }
@@ -199,6 +201,11 @@ CameraOdometer::CameraOdometer(std::span<const FlowProfile> profiles) {
     const double spread = std::pow(std::max(1.0, Roughness(profiles, SpreadOf)), 2);
     length_weight_ = static_cast<float>(spread / (length + spread));
   }
+}
+
+int CameraOdometer::Way(const OdometerReading& reading) const {
+  return std::abs(across_) >= std::abs(along_) ? SignOf(reading.median_x) * (across_ < 0 ? -1 : 1)
+                                               : SignOf(reading.expansion) * (along_ < 0 ? -1 : 1);
 }
 
 std::int16_t CameraOdometer::Read(const OdometerReading& reading) const {

@@ -33,12 +33,18 @@ class CameraOdometer {
 
   // kNone where the observation has no reading.
   std::int16_t Read(const OdometerReading& reading) const;
+  // +1: the camera moves past what it sees as it did when the map was made; -1: the other way; 0:
+  // not seen.
+  int Way(const OdometerReading& reading) const;
   CameraDirection direction() const { return direction_; }
 
  private:
   CameraDirection direction_ = CameraDirection::kUnknown;
   // Weight of the median length; the rest is the spread's.
   float length_weight_ = 1;
+  // Mean signs over the map, -1 to 1: of the sideways flow, and of the expansion.
+  double across_ = 0;
+  double along_ = 0;
 };
 
 // Over a stretch of so many correlation lengths a map has changed (SharedChange).

@@ -7,12 +7,13 @@ namespace homing {
 namespace {
 
 // A different place shares at least this much; and the threshold lies so much above what it shares.
-constexpr double kLeastShared = 0.12;
+constexpr double kLeastShared = 0.14;
 constexpr double kAboveDifferent = 0.03;
 // Before it has moved a whole stretch, a robot is judged from this many correlation lengths on.
 constexpr double kFirstLengths = 1;
 // Instants closer together than this part of the stretch are not kept.
 constexpr double kSpacing = 1.0 / 16;
+constexpr std::size_t kMostInstants = 32;
 
 std::span<const FlowProfile> ProfilesOf(std::span<const JourneyRef> journeys,
                                         const BelievedInstant& at, std::size_t side) {
@@ -38,7 +39,7 @@ double UsualDistance(const SideScale& side, double lengths) {
 // Of the change between both instants; none where no side can be compared.
 std::optional<double> ShareOf(std::span<const JourneyRef> journeys, const RouteScale& route,
                               const BelievedInstant& now, const BelievedInstant& then) {
-  const double lengths = (now.moved - then.moved) / route.correlation_steps;
+  const double lengths = std::abs(now.moved - then.moved) / route.correlation_steps;
   double sum = 0, count = 0;
   std::size_t sides = 0;
   for (std::size_t side = 0; side < now.seen.size(); ++side) {
@@ -67,14 +68,19 @@ std::optional<double> SharedChange::Add(std::span<const JourneyRef> journeys,
   const RouteScale& route = routes[now.journey];
   const double stretch = kStretchLengths * route.correlation_steps;
   // The latest instant that is far enough behind; at first one that is less far.
-  while (past_.size() > 1 && now.moved - past_[1].moved >= stretch) past_.pop_front();
+  const auto away = [&now](const BelievedInstant& then) {
+    return std::abs(now.moved - then.moved);
+  };
+  while (past_.size() > 1 && away(past_[1]) >= stretch) past_.pop_front();
   std::optional<double> shared;
-  if (!past_.empty() && now.moved - past_[0].moved >= kFirstLengths * route.correlation_steps) {
+  if (!past_.empty() && away(past_[0]) >= kFirstLengths * route.correlation_steps) {
     shared = ShareOf(journeys, route, now, past_[0]);
   }
-  if (past_.empty() || now.moved - past_.back().moved >= kSpacing * stretch) {
+  if (past_.empty() || away(past_.back()) >= kSpacing * stretch) {
     past_.push_back(now);
   }
+  // A robot may drive to and fro.
+  if (past_.size() > kMostInstants) past_.pop_front();
   return shared;
 }
 

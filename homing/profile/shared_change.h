@@ -27,7 +27,7 @@ struct BelievedInstant {
     const CellMask* covered = nullptr;
   };
   std::array<std::optional<Seen>, 2> seen{};
-  // Steps that the robot has moved since the first instant.
+  // Steps from where the robot was at the first instant; the sign tells the way.
   double moved = 0;
 };
 

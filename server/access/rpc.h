@@ -17,6 +17,7 @@ enum class Rpc {
   kRecordJourney,
   kListLandmarks,
   kAnalyzeAliasing,
+  kDescribeRoute,
   kExportJourney,
   kImportJourney,
   kMatchLandmarks,
@@ -59,7 +60,7 @@ struct RpcTraits {
   std::string_view field;
 };
 
-inline constexpr std::array<RpcTraits, 20> kRpcs = {{
+inline constexpr std::array<RpcTraits, 21> kRpcs = {{
     {Rpc::kCreateJourney, "homing.v1.JourneyService/CreateJourney", Right::kWrite, "parent"},
     {Rpc::kGetJourney, "homing.v1.JourneyService/GetJourney", Right::kSee, "name"},
     {Rpc::kListJourneys, "homing.v1.JourneyService/ListJourneys", Right::kSee, "parent"},
@@ -70,6 +71,7 @@ inline constexpr std::array<RpcTraits, 20> kRpcs = {{
      "config.journey"},
     {Rpc::kListLandmarks, "homing.v1.JourneyService/ListLandmarks", Right::kTakeMap, "parent"},
     {Rpc::kAnalyzeAliasing, "homing.v1.JourneyService/AnalyzeAliasing", Right::kTakeMap, "name"},
+    {Rpc::kDescribeRoute, "homing.v1.JourneyService/DescribeRoute", Right::kTakeMap, "name"},
     {Rpc::kExportJourney, "homing.v1.JourneyService/ExportJourney", Right::kTakeMap, "name"},
     {Rpc::kImportJourney, "homing.v1.JourneyService/ImportJourney", Right::kWrite, "name"},
     {Rpc::kMatchLandmarks, "homing.v1.HomingService/MatchLandmarks", Right::kLocalize, "journey"},

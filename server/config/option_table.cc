@@ -97,6 +97,8 @@ const std::array kOptions = {
     ServerOption{"readonly", HOMING_OPTION(readonly),
                  "Localise only; the database, which must have been closed cleanly, is not "
                  "changed"},
+    ServerOption{"log-format", HOMING_OPTION(log_format),
+                 "text, or json: an object a line, with the trace of the call"},
     ServerOption{"no-reflection", HOMING_OPTION(no_reflection),
                  "Do not describe the API to clients"},
 };

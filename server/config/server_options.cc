@@ -69,6 +69,9 @@ absl::Status Validate(const ServerOptions& options) {
     return TextMustBe("listen", options.listen,
                       "a loopback address without TLS; set tls-cert and tls-key, or insecure");
   }
+  if (options.log_format != "text" && options.log_format != "json") {
+    return TextMustBe("log-format", options.log_format, "text or json");
+  }
   return CheckForPostgres(options);
 }
 

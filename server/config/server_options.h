@@ -61,6 +61,8 @@ struct ServerOptions {
   bool insecure = false;
   // Localise only; no byte of the database is changed.
   bool readonly = false;
+  // Lines of the log: "text" or "json".
+  std::string log_format = "text";
   // Do not describe the API to clients that ask.
   bool no_reflection = false;
 };

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "absl/strings/str_cat.h"
+#include "homing/base/trace_parent.h"
 #include "server/http/console_assets.h"
 #include "server/http/console_state.h"
 #include "server/http/request_guard.h"
@@ -36,7 +37,7 @@ void SetSafeHeaders(Response* response) {
 
 std::string TraceOf(const Request& request) {
   std::string trace = request.get_header_value("traceparent");
-  return IsTraceParent(trace) ? trace : "";
+  return ParseTraceParent(trace) ? trace : "";
 }
 
 }  // namespace

@@ -53,16 +53,4 @@ std::string CookieOf(const std::string& cookies, const std::string& name) {
   return "";
 }
 
-bool IsTraceParent(const std::string& text) {
-  constexpr std::size_t kSize = 55;
-  if (text.size() != kSize) return false;
-  for (std::size_t i = 0; i < kSize; ++i) {
-    const bool dash = i == 2 || i == 35 || i == 52;
-    const bool hex = absl::ascii_isdigit(static_cast<unsigned char>(text[i])) ||
-                     (text[i] >= 'a' && text[i] <= 'f');
-    if (dash ? text[i] != '-' : !hex) return false;
-  }
-  return true;
-}
-
 }  // namespace homing::server

@@ -18,9 +18,6 @@ bool IsSameOrigin(const std::string& origin, const std::string& host);
 // The value of `name` in the header Cookie; empty: none.
 std::string CookieOf(const std::string& cookies, const std::string& name);
 
-// "00-TRACE-SPAN-FLAGS" (W3C).
-bool IsTraceParent(const std::string& text);
-
 }  // namespace homing::server
 
 #endif  // SERVER_HTTP_REQUEST_GUARD_H_

@@ -14,6 +14,7 @@
 #include "homing/base/mutex.h"
 #include "server/base/inline_policy.h"
 #include "server/base/read_window.h"
+#include "server/base/trace_scope.h"
 #include "server/rpc/incoming_call.h"
 #include "server/rpc/read_mark.h"
 #include "server/rpc/service_core.h"
@@ -203,6 +204,7 @@ class BidiStream : public grpc::ServerBidiReactor<Request, Response>,
         return;
       }
     }
+    const TraceScope scope(call_.trace());
     const auto begin = std::chrono::steady_clock::now();
     const absl::Status status = Guarded([&] { return Handle(request); });
     policy_.NoteHandled(std::chrono::steady_clock::now() - begin);

@@ -10,6 +10,7 @@
 
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
+#include "server/base/trace_scope.h"
 #include "server/rpc/incoming_call.h"
 #include "server/rpc/service_core.h"
 #include "server/rpc/status_conversion.h"
@@ -76,6 +77,7 @@ class ChunkStream : public grpc::ServerWriteReactor<Response>,
 
  private:
   void Begin() {
+    const TraceScope scope(call_.trace());
     const absl::Status status = Guarded([this] { return Prepare(core_, &call_); });
     if (status.ok()) {
       WriteNext();

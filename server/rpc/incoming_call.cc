@@ -13,6 +13,7 @@
 #include "homing/base/mutex.h"
 #include "homing/base/status_macros.h"
 #include "server/base/error_reason.h"
+#include "server/base/trace_scope.h"
 #include "server/rpc/status_conversion.h"
 
 namespace homing::server {
@@ -55,6 +56,12 @@ Credentials CredentialsOf(const grpc::ServerContextBase& context) {
   return credentials;
 }
 
+std::optional<TraceParent> TraceOf(const grpc::ServerContextBase& context) {
+  const auto found = context.client_metadata().find("traceparent");
+  return found == context.client_metadata().end() ? std::nullopt
+                                                  : ParseTraceParent(TextOf(found->second));
+}
+
 // Changes that an operator may ask about later; recording itself is not one.
 bool IsAudited(Rpc rpc) {
   const Right right = TraitsOf(rpc).right;
@@ -72,7 +79,7 @@ std::string RobotNamed(const std::string& resource) {
 }  // namespace
 
 IncomingCall::IncomingCall(ServiceCore* core, const grpc::ServerContextBase& context, Rpc rpc)
-    : core_(core), rpc_(rpc), begin_(std::chrono::steady_clock::now()) {
+    : core_(core), rpc_(rpc), begin_(std::chrono::steady_clock::now()), trace_(TraceOf(context)) {
   core_->metrics->CallStarted(rpc_);
   if (!core_->access->is_open()) {
     credentials_ = CredentialsOf(context);
@@ -154,6 +161,7 @@ absl::Status IncomingCall::TakeObservation() {
 }
 
 grpc::Status IncomingCall::Finish(const absl::Status& status) {
+  const TraceScope scope(trace());
   if (!finished_.exchange(true)) {
     const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin_;
     core_->metrics->CallEnded(rpc_, status, elapsed.count());
@@ -161,6 +169,11 @@ grpc::Status IncomingCall::Finish(const absl::Status& status) {
     if (IsAudited(rpc_)) {
       spdlog::info("audit: {} {} \"{}\": {}", caller_.identity.empty() ? "-" : caller_.identity,
                    TraitsOf(rpc_).method, resource_, absl::StatusCodeToString(status.code()));
+    }
+    // The client records the trace, so it has a line of each call. A stranger cannot fill the log.
+    if (trace_ && IsSampled(*trace_) && identified_.ok()) {
+      spdlog::info("call: {} \"{}\": {} in {:.6f} s", TraitsOf(rpc_).method, resource_,
+                   absl::StatusCodeToString(status.code()), elapsed.count());
     }
     place_.Leave();
   }

@@ -6,10 +6,12 @@
 #include <grpcpp/support/status.h>
 
 #include <atomic>
+#include <optional>
 #include <string>
 
 #include "absl/status/status.h"
 #include "homing/base/mutex.h"
+#include "homing/base/trace_parent.h"
 #include "server/access/authorization.h"
 #include "server/admission/stream_limiter.h"
 #include "server/rpc/service_core.h"
@@ -43,6 +45,8 @@ class IncomingCall {
   // "robots/r": the caller if it is a robot, else the robot that the request says or that its
   // journey names; empty: none.
   std::string RobotOf(const std::string& said, const std::string& journey) const;
+  // The trace that the client says it belongs to, for a TraceScope; null: none.
+  const TraceParent* trace() const { return trace_ ? &*trace_ : nullptr; }
   // Counts one observation. RESOURCE_EXHAUSTED: the robot's rate is too high.
   absl::Status TakeObservation();
 
@@ -53,6 +57,7 @@ class IncomingCall {
   ServiceCore* const core_;
   const Rpc rpc_;
   const TimePoint begin_;
+  const std::optional<TraceParent> trace_;
   Credentials credentials_;
   absl::Status identified_;
   Caller caller_;

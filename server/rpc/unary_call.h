@@ -11,6 +11,7 @@
 
 #include "homing/base/cancellation.h"
 #include "homing/base/status_macros.h"
+#include "server/base/trace_scope.h"
 #include "server/rpc/incoming_call.h"
 #include "server/rpc/service_core.h"
 #include "server/rpc/status_conversion.h"
@@ -41,6 +42,7 @@ grpc::ServerUnaryReactor* ServeUnary(ServiceCore* core, grpc::CallbackServerCont
     admitted = DrainingError();
   } else if (admitted.ok() &&
              pool->TryRun([reactor, context, incoming, resource, call = std::move(call)] {
+               const TraceScope scope(incoming->trace());
                reactor->Finish(incoming->Finish(Guarded([&] {
                  const UnaryCancellation cancellation(context);
                  HOMING_RETURN_IF_ERROR(CheckAwaited(&cancellation));

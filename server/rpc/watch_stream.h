@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "homing/base/mutex.h"
+#include "server/base/trace_scope.h"
 #include "server/fleet/fleet_board.h"
 #include "server/rpc/incoming_call.h"
 #include "server/rpc/service_core.h"
@@ -80,6 +81,7 @@ class WatchStream : public grpc::ServerWriteReactor<Response>,
 
  private:
   void Begin() {
+    const TraceScope scope(call_.trace());
     const absl::Status status = Guarded([this]() -> absl::Status {
       const absl::Status allowed = call_.Authorize(resource_);
       return allowed.ok() ? Prepare(core_) : allowed;

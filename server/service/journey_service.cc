@@ -6,6 +6,7 @@
 #include "server/service/journey_requests.h"
 #include "server/service/message_conversion.h"
 #include "server/service/record_stream.h"
+#include "server/service/route_description.h"
 
 namespace homing::server {
 
@@ -108,6 +109,16 @@ grpc::ServerUnaryReactor* JourneyServiceHandler::AnalyzeAliasing(
         return DescribeAliasing(*request, &core->catalog, response);
       },
       &core_->long_work);
+}
+
+grpc::ServerUnaryReactor* JourneyServiceHandler::DescribeRoute(
+    grpc::CallbackServerContext* context, const v1::DescribeRouteRequest* request,
+    v1::DescribeRouteResponse* response) {
+  return ServeUnary(
+      core_, context, Rpc::kDescribeRoute, request->name(),
+      [core = core_, request, response](const JourneyFilter& /*all*/) -> absl::Status {
+        return FillRouteDescription(*request, &core->catalog, response);
+      });
 }
 
 grpc::ServerBidiReactor<v1::RecordJourneyRequest, v1::RecordJourneyResponse>*

@@ -33,6 +33,9 @@ class JourneyServiceHandler final : public v1::JourneyService::CallbackService {
   grpc::ServerUnaryReactor* ListLandmarks(grpc::CallbackServerContext* context,
                                           const v1::ListLandmarksRequest* request,
                                           v1::ListLandmarksResponse* response) override;
+  grpc::ServerUnaryReactor* DescribeRoute(grpc::CallbackServerContext* context,
+                                          const v1::DescribeRouteRequest* request,
+                                          v1::DescribeRouteResponse* response) override;
   grpc::ServerUnaryReactor* AnalyzeAliasing(grpc::CallbackServerContext* context,
                                             const v1::AnalyzeAliasingRequest* request,
                                             v1::AnalyzeAliasingResponse* response) override;

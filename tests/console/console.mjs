@@ -1,6 +1,6 @@
 // The console in Chromium against a live server: usage node console.mjs SERVER PROTOS OUT
 import { spawn } from 'node:child_process';
-import { mkdirSync, rmSync, writeFileSync } from 'node:fs';
+import { mkdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import http from 'node:http';
 import axeModule from '@axe-core/playwright';
 import { chromium } from 'playwright-core';
@@ -51,7 +51,7 @@ try {
     await page.reload();
     await page.waitForSelector('main h1');
     await pause(1300);
-    await page.screenshot({ path: `${out}/${name}-${theme}${phone ? '-phone' : ''}.png` });
+    await page.screenshot({ path: `${out}/${name}-${theme}${phone ? '-phone' : ''}.png`, fullPage: true });
     const wide = await page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
     check(`${name} ${theme}${phone ? ' phone' : ''} fits its width`, wide <= 0, wide);
     const { violations } = await new Axe({ page }).analyze();
@@ -112,6 +112,18 @@ try {
   check('eight tabs at once', shown.every(Boolean));
   for (const tab of tabs) await tab.close();
 
+  // What ten consoles cost the server, in seconds of processor a second.
+  await page.goto('about:blank');
+  const used = () => { const f = readFileSync(`/proc/${child.pid}/stat`, 'utf8').split(') ')[1].split(' '); return (Number(f[11]) + Number(f[12])) / 100; };
+  const cost = async (s) => { const begin = used(); await pause(s * 1000); return (used() - begin) / s; };
+  const alone = await cost(10);
+  const feeds = Array.from({ length: 10 }, (_, i) => http.get(`${url}/events?robot=robots/${robot(i + 1)}`, { agent: false }, (a) => a.resume()));
+  await pause(1000);
+  const watched = await cost(10);
+  for (const feed of feeds) feed.destroy();
+  check('ten consoles cost under 5 % of a core', watched - alone < 0.05, `${(100 * alone).toFixed(1)} % without, ${(100 * watched).toFixed(1)} % with them`);
+  await visit('fleet', 'tbody tr');
+
   fleet.stop();
   await stop('SIGKILL');
   await page.waitForSelector('.link.bad');
@@ -147,7 +159,6 @@ try {
   await page.reload();
   await page.waitForSelector('#token');
   await shot('login', 'light');
-  const { readFileSync } = await import('node:fs');
   await page.fill('#token', 'wrong');
   await page.click('button.primary');
   check('a wrong token is refused', await page.waitForSelector('[role=alert]').then(() => true));

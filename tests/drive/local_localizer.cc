@@ -34,6 +34,7 @@ PilotAnswer AnswerOf(const Localization& localization) {
   PilotAnswer answer;
   answer.outcome = OutcomeOf(position.outcome);
   answer.is_turning = localization.motion == Motion::kTurning;
+  answer.is_standing = localization.motion == Motion::kStanding;
   answer.probability = position.probability;
   if (position.step) answer.progress_home = position.progress_home;
   answer.speed_ratio = position.speed_ratio;

@@ -5,8 +5,10 @@
 #include <unistd.h>
 
 #include <array>
+#include <chrono>
 #include <memory>
 
+#include "absl/strings/match.h"
 #include "homing/v1/journey_service.grpc.pb.h"
 #include "proto/wire/observation_conversion.h"
 #include "server/access/rpc.h"
@@ -74,7 +76,12 @@ class Server {
 class RawCall {
  public:
   RawCall(const std::shared_ptr<grpc::Channel>& channel, const std::string& method)
-      : stub_(channel), call_(stub_.PrepareCall(&context_, method, &queue_)) {
+      : stub_(channel) {
+    // A watch ends only when its client ends it.
+    if (absl::StrContains(method, "/Watch")) {
+      context_.set_deadline(std::chrono::system_clock::now() + std::chrono::milliseconds(50));
+    }
+    call_ = stub_.PrepareCall(&context_, method, &queue_);
     call_->StartCall(this);
     started_ = Next();
   }

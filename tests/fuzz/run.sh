@@ -31,4 +31,4 @@ printf '%s\n' "$@" | xargs -P "$(nproc)" -n 1 sh -euc '
     -artifact_prefix="build/fuzz/findings/$target-" -print_final_stats=1 >"$log" 2>&1 || result=short
   echo "fuzz_$target $(sed -n "s/^stat::number_of_executed_units: *//p" "$log") $result"
   [ "$result" = ok ] ||
-    { grep -aE "ERROR|SUMMARY|runtime error|artifact_prefix|Test unit written" "$log" >&2; exit 1; }' sh "$seconds"
+    { grep -aE "^==.*ERROR|SUMMARY|runtime error|artifact_prefix|Test unit written" "$log" >&2; exit 1; }' sh "$seconds"

@@ -109,6 +109,11 @@ TEST_F(CliJsonTest, JourneysListShowExportImportDelete) {
   const Ran show = Homing({"journeys", "show", "--json", kJourney});
   ASSERT_EQ(show.Json().size(), 1U);
   EXPECT_EQ(show.Json()[0]["landmarks"].size(), show.Json()[0]["landmark_count"]);
+  EXPECT_EQ(show.Json()[0]["cameras"], (nlohmann::json{{"LEFT", "ACROSS"}, {"RIGHT", "ACROSS"}}));
+  EXPECT_GT(show.Json()[0]["bytes"], 16 * show.Json()[0]["fingerprint_count"].get<int>());
+  const Ran table = Homing({"journeys", "show", kJourney});
+  EXPECT_THAT(table.lines,
+              ::testing::Contains(HasSubstr("LEFT looks ACROSS, RIGHT looks ACROSS, ")));
   const std::string exported = Export(kJourney);
   const Ran imported =
       Homing({"journeys", "import", "--json", "robots/a/journeys/copy", Path("exported")});
@@ -206,6 +211,11 @@ TEST_F(CliJsonTest, SimulateDrawAndEvaluateWorkTogether) {
   EXPECT_EQ(judged.code, 0) << judged.errors;
   EXPECT_THAT(judged.lines.back(), HasSubstr("verdict: "));
   EXPECT_TRUE(std::filesystem::exists(Path("pictures/way_home.png")));
+  // Without the truth the table has the believed steps, and the progress home.
+  const Ran told = Homing({"evaluate", "--answers", Path("home.json"), "--rows", "5"});
+  EXPECT_THAT(told.lines[0], ::testing::MatchesRegex(" *sequence +step +way home +outcome.*"));
+  EXPECT_THAT(told.lines[told.lines.size() - 2],
+              ::testing::MatchesRegex(" *[0-9]+ +[0-9]+ +[0-9]+ % +MATCH .*"));
   for (const char* picture : {"strip.svg", "strip.png"}) {
     EXPECT_EQ(Homing({"draw", "--journey", kJourney, "--out", Path(picture)}).code, 0);
     EXPECT_GT(std::filesystem::file_size(Path(picture)), 1000U);

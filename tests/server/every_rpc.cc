@@ -209,6 +209,11 @@ grpc::Status EveryRpc::CallJourneys(Rpc rpc, const std::string& journey) {
     v1::ListLandmarksResponse response;
     return journeys_->ListLandmarks(context.get(), request, &response);
   }
+  if (rpc == Rpc::kDescribeRoute) {
+    v1::DescribeRouteResponse response;
+    return journeys_->DescribeRoute(context.get(), Named<v1::DescribeRouteRequest>(journey),
+                                    &response);
+  }
   v1::AnalyzeAliasingResponse response;
   return journeys_->AnalyzeAliasing(context.get(), Named<v1::AnalyzeAliasingRequest>(journey),
                                     &response);

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace homing::client {
@@ -114,6 +115,47 @@ TEST_F(PilotTest, IsSlowerWhenUnsureAndSearchesAfterAWhile) {
   for (int i = 0; i < 300; ++i) back = Step(pilot, lost).speed_mps < 0 || back;
   EXPECT_EQ(pilot.state(), Pilot::State::kSearching);
   EXPECT_TRUE(back);
+}
+
+// A stretch that has changed may be long: to and fro on it alone the robot would stay for ever.
+TEST_F(PilotTest, ASearchGoesFurtherAndFurther) {
+  Pilot pilot = OnItsWay();
+  PilotAnswer lost;
+  lost.outcome = PilotAnswer::Outcome::kUnknownPlace;
+  lost.turn = 0;
+  while (pilot.state() != Pilot::State::kSearching) Step(pilot, lost);
+  const double begin_m = pilot.remaining_m();
+  double ahead_m = 0, behind_m = 0;
+  for (int i = 0; i < 1000; ++i) {
+    Step(pilot, lost);
+    ahead_m = std::max(ahead_m, begin_m - pilot.remaining_m());
+    behind_m = std::max(behind_m, pilot.remaining_m() - begin_m);
+  }
+  EXPECT_GT(ahead_m, 5);
+  EXPECT_GT(behind_m, 1);
+}
+
+TEST_F(PilotTest, WithoutATurnTheHeadingFollowsTheCommands) {
+  Pilot pilot = OnItsWay();
+  PilotAnswer left = Sure();
+  left.path_offset = 0.2;
+  left.turn.reset();
+  for (int i = 0; i < 10; ++i) Step(pilot, left);
+  EXPECT_LT(pilot.heading(), -0.1);
+  // Nothing has moved since the reference frame: what was turned is told later.
+  Pilot standing = OnItsWay();
+  left.is_standing = true;
+  for (int i = 0; i < 10; ++i) Step(standing, left);
+  EXPECT_GT(standing.heading(), pilot.heading());
+}
+
+// The map ends there: answers stay at its last steps while the robot drives past them.
+TEST_F(PilotTest, TheLastMetreIsDrivenAsCommanded) {
+  Pilot pilot = OnItsWay();
+  PilotAnswer near = Sure();
+  near.progress_home = 1 - 1.2 / 60;
+  for (int i = 0; i < 200 && pilot.state() != Pilot::State::kHome; ++i) Step(pilot, near);
+  EXPECT_EQ(pilot.state(), Pilot::State::kHome);
 }
 
 TEST_F(PilotTest, StopsAtHomeForGood) {

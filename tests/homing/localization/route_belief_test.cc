@@ -199,11 +199,20 @@ TEST(StepWindowTest, HoldsTheMostMass) {
   EXPECT_NEAR(window.mass, 0.35, 1e-6);
 }
 
-TEST(StepWindowTest, OfManyThatHoldAllLiesAboutTheLikeliestStep) {
+TEST(StepWindowTest, OfManyThatHoldAllLiesAboutTheMiddleOfTheMass) {
   StepMass mass{0, std::vector<float>(100)};
   mass.mass[50] = 0.375;
-  mass.mass[52] = 0.625;
-  EXPECT_EQ(BestWindow(mass, 10, 100).step, 52);
+  mass.mass[54] = 0.625;
+  EXPECT_EQ(BestWindow(mass, 10, 100).step, 53);
+}
+
+// A little mass far off would draw the window to its side by half its width.
+TEST(StepWindowTest, AThinTailDoesNotMoveIt) {
+  StepMass mass{0, std::vector<float>(100)};
+  mass.mass[50] = 0.999F;
+  mass.mass[60] = 0.001F;
+  EXPECT_EQ(BestWindow(mass, 5, 100).step, 50);
+  EXPECT_EQ(BestWindow(mass, 8, 100).step, 50);
 }
 
 TEST(StepWindowTest, IsCutAtTheEnds) {

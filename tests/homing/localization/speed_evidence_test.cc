@@ -36,8 +36,8 @@ TEST(SpeedEvidenceTest, ADifferenceOutOfRangeIsTheMostExtreme) {
   EXPECT_EQ(SpeedEvidence::IndexOf(100000), 2 * SpeedEvidence::kMostCode);
 }
 
-TEST(SpeedEvidenceTest, AGoodOdometerIsFollowedAtOnce) {
-  EXPECT_NEAR(SpeedEvidence(0).change(), 1, 1e-9);
+TEST(SpeedEvidenceTest, SpeedsChangeMoreByAGoodOdometer) {
+  EXPECT_GT(SpeedEvidence(0).change(), 0.2);
   EXPECT_LT(SpeedEvidence(1).change(), 0.1);
 }
 

@@ -55,7 +55,18 @@ TEST(VerticalTurnTest, DrivingAheadIsNoTurn) {
 TEST(VerticalTurnTest, FewVectorsTellNothing) {
   ObservedFlow flow = TurningFlow(0.05, 5);
   flow.fields[0]->vectors.resize(3);
-  EXPECT_EQ(ReadVerticalTurn(flow, Calibrated()).variance, 1);
+  flow.fields[1]->vectors.resize(3);
+  EXPECT_NEAR(ReadVerticalTurn(flow, Calibrated()).variance, 0.5, 1e-9);
+}
+
+TEST(VerticalTurnTest, OneCameraIsEnough) {
+  const ObservedFlow both = TurningFlow(0.05, 5);
+  ObservedFlow one = both;
+  one.fields[0].reset();
+  EXPECT_NEAR(ReadVerticalTurn(one, Calibrated()).turn, ReadVerticalTurn(both, Calibrated()).turn,
+              0.005);
+  one.fields[1].reset();
+  EXPECT_EQ(ReadVerticalTurn(one, Calibrated()).variance, 1);
 }
 
 }  // namespace

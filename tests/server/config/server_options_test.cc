@@ -75,6 +75,17 @@ TEST_F(ServerOptionsTest, WrongUsageExitsWithTwo) {
   EXPECT_EQ(Parse({"--config", WriteFile("workers = \"x\"\n").c_str()}).exit_code, 2);
 }
 
+TEST_F(ServerOptionsTest, TheLogIsTextOrJson) {
+  ServerOptions options;
+  for (const char* format : {"text", "json"}) {
+    options.log_format = format;
+    EXPECT_THAT(Validate(options), IsOk()) << format;
+  }
+  options.log_format = "xml";
+  EXPECT_THAT(Validate(options), StatusIs(absl::StatusCode::kInvalidArgument,
+                                          HasSubstr("log-format: \"xml\" must be text or json")));
+}
+
 TEST_F(ServerOptionsTest, HelpAndVersionExitWithZero) {
   EXPECT_EQ(Parse({"--help"}).action, ServerCommand::Action::kExit);
   EXPECT_EQ(Parse({"--help"}).exit_code, 0);
