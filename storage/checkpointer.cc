@@ -2,6 +2,7 @@
 
 #include <sqlite3.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "homing/base/mutex.h"
@@ -43,6 +44,7 @@ Checkpointer::Checkpointer(std::unique_ptr<Connection> connection, Connection* w
       writer_(writer),
       write_mutex_(write_mutex),
       next_at_(kDuePages),
+      due_pages_(kDuePages),
       thread_([this] { Run(); }) {
   sqlite3_wal_hook(
       writer_->database().getHandle(),
@@ -63,9 +65,13 @@ Checkpointer::~Checkpointer() {
   thread_.join();
 }
 
+void Checkpointer::LimitLog(std::int64_t pages) {
+  due_pages_ = static_cast<int>(std::clamp<std::int64_t>(pages, kFewPages, kDuePages));
+}
+
 void Checkpointer::NoteLog(int pages) {
   pages_in_log_ = pages;
-  if (pages < kDuePages) next_at_ = kDuePages;
+  if (pages < due_pages_) next_at_ = due_pages_;
   if (pages < next_at_) return;
   next_at_ = pages + kPagesToNextTry;
   {

@@ -30,6 +30,12 @@ class Checkpointer {
   // unknown. Thread-safe.
   int CountPagesInLog();
 
+  // Moves the log already when it has `pages` pages, if these are fewer than usual. Thread-safe.
+  void LimitLog(std::int64_t pages);
+  // Moves all pages now, with the writer blocked, so that the log starts again at its beginning.
+  // REQUIRES: the caller does not hold the write mutex.
+  void MoveNow() { MoveAll(); }
+
   // Waits for the current work.
   ~Checkpointer();
   Checkpointer(const Checkpointer&) = delete;
@@ -56,6 +62,8 @@ class Checkpointer {
   bool stopping_ HOMING_GUARDED_BY(mutex_) = false;
   // Length of the log, in pages, at which it is moved next. The writer's thread uses it.
   int next_at_;
+  // As next_at_, while the log is short.
+  std::atomic<int> due_pages_;
   std::thread thread_;
 };
 

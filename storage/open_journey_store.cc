@@ -77,8 +77,10 @@ absl::StatusOr<std::unique_ptr<JourneyStore>> OpenJourneyStore(const StoreOption
       std::unique_ptr<Connection> writer,
       Connection::Open(path, Connection::Access::kReadWrite, options.busy_timeout_ms));
   std::unique_ptr<StoreLock> lock;
+  std::unique_ptr<SpaceReserve> reserve;
   if (path != kInMemory) {
     HOMING_ASSIGN_OR_RETURN(lock, StoreLock::Take(path));
+    reserve = std::make_unique<SpaceReserve>(path);
   }
   HOMING_RETURN_IF_ERROR(Migrate(*writer));
   HOMING_RETURN_IF_ERROR(MakeDurable(*writer, path));
@@ -92,6 +94,7 @@ absl::StatusOr<std::unique_ptr<JourneyStore>> OpenJourneyStore(const StoreOption
                                                     std::move(queries));
   if (path != kInMemory) {
     HOMING_RETURN_IF_ERROR(store->StartCheckpoints(options.busy_timeout_ms));
+    store->KeepReserve(std::move(reserve));
   }
   return store;
 }

@@ -93,8 +93,12 @@ void SqliteJourneyStore::NoteHealth(const absl::Status& written, bool changed) {
 
 absl::Status SqliteJourneyStore::WriteHealth() {
   HOMING_RETURN_IF_ERROR(CheckFiles());
-  const MutexLock lock(health_mutex_);
-  return write_health_;
+  {
+    const MutexLock lock(health_mutex_);
+    if (!write_health_.ok()) return write_health_;
+  }
+  TryFillReserve();
+  return absl::OkStatus();
 }
 
 bool SqliteJourneyStore::IsHealed() {
@@ -168,13 +172,6 @@ absl::StatusOr<std::vector<JourneyRecord>> SqliteJourneyStore::ListJourneys(
     const std::string& prefix, const std::string& after, int limit) {
   return ReadOne<std::vector<JourneyRecord>>(
       [&](Connection& connection) { return ListJourneyRows(connection, prefix, after, limit); });
-}
-
-absl::Status SqliteJourneyStore::DeleteJourney(const std::string& name) {
-  return Write([&](Connection& connection) {
-    appends_.ForgetEpoch(name);
-    return DeleteJourneyRow(connection, name);
-  });
 }
 
 absl::Status SqliteJourneyStore::FinishJourney(const std::string& name) {

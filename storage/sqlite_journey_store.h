@@ -15,6 +15,7 @@
 #include "storage/file_identity.h"
 #include "storage/journey_store.h"
 #include "storage/query_connections.h"
+#include "storage/space_reserve.h"
 #include "storage/step_appends.h"
 #include "storage/store_lock.h"
 
@@ -34,6 +35,8 @@ class SqliteJourneyStore final : public JourneyStore {
 
   // REQUIRES: a file, and not read-only. Once.
   absl::Status StartCheckpoints(int busy_timeout_ms);
+  // REQUIRES: a file, and not read-only. Once.
+  void KeepReserve(std::unique_ptr<SpaceReserve> reserve);
 
   absl::Status CreateJourney(const JourneyRecord& record) override;
   absl::StatusOr<JourneyRecord> GetJourney(const std::string& name) override;
@@ -67,6 +70,13 @@ class SqliteJourneyStore final : public JourneyStore {
   // appends.
   absl::Status Write(const Body& body);
   absl::Status Transact(const Body& body);
+  absl::Status DeleteOnce(const std::string& name);
+  // Where there is space again.
+  void FillReserve() HOMING_REQUIRES(reserve_mutex_);
+  // Not while a deletion uses it.
+  void TryFillReserve();
+  // The log holds no more than the file can grow by when the reserve is given up.
+  void LimitLog() HOMING_REQUIRES(reserve_mutex_);
   // The files are those that were opened. A store in memory has none.
   absl::Status CheckFiles();
   void NoteLogPages(int pages);
@@ -96,6 +106,9 @@ class SqliteJourneyStore final : public JourneyStore {
   std::unique_ptr<Checkpointer> checkpointer_;
   // A copy is being made.
   std::atomic<bool> backing_up_ = false;
+  Mutex reserve_mutex_;
+  // Null for a store in memory.
+  std::unique_ptr<SpaceReserve> reserve_ HOMING_GUARDED_BY(reserve_mutex_);
 };
 
 }  // namespace homing::storage

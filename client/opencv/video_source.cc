@@ -30,6 +30,9 @@ constexpr char kLiveOptions[] = "|analyzeduration;1000000";
 constexpr char kNoLines[] = "-8";
 // How often a read is tried again where frames are due: a damaged part fails once or twice.
 constexpr int kAttempts = 64;
+// Time between two frames of a file that says that some are missing.
+constexpr double kJumpMs = 500;
+constexpr double kJumpFrames = 5;
 
 std::int64_t NowNanoseconds() {
   return std::chrono::duration_cast<std::chrono::nanoseconds>(
@@ -75,6 +78,7 @@ class VideoSource : public FrameSource {
       }
       promised_ = std::max<std::int64_t>(0, std::llround(capture_.get(cv::CAP_PROP_FRAME_COUNT)));
       fps_ = capture_.get(cv::CAP_PROP_FPS);
+      last_ms_ = capture_.get(cv::CAP_PROP_POS_MSEC);
     } catch (const cv::Exception& e) {
       return absl::InvalidArgumentError(absl::StrCat(Shown(path_), ": ", e.what()));
     }
@@ -149,9 +153,15 @@ class VideoSource : public FrameSource {
     while (!capture_.read(*image) && !live_ && next_ < promised_ && ++attempts < kAttempts) {
     }
     if (!image->empty()) {
-      gap_ = gap_ || attempts > 0;
-      last_ms_ = capture_.get(cv::CAP_PROP_POS_MSEC);
+      const double ms = capture_.get(cv::CAP_PROP_POS_MSEC);
+      gap_ = gap_ || attempts > 0 || IsJump(ms - last_ms_);
+      last_ms_ = ms;
     }
+  }
+
+  // Some formats pass over a damaged part without a failed read. Frames of uneven rate are no jump.
+  bool IsJump(double ms) const {
+    return !live_ && fps() > 0 && ms > kJumpMs && ms > kJumpFrames * 1000 / fps();
   }
 
   // Where the header has no count of frames, OpenCV makes it of length and rate, which is not

@@ -1,5 +1,7 @@
 #include "homing/flow/corner_detector.h"
 
+#include <algorithm>
+#include <functional>
 #include <opencv2/imgproc.hpp>
 #include <optional>
 
@@ -30,6 +32,23 @@ std::optional<cv::Point> BestIn(const cv::Rect& cell, const cv::Mat& strength,
   return best;
 }
 
+// The strongest `most`, the first of equal ones, in their order.
+void KeepStrongest(const cv::Mat& strength, std::size_t most, std::vector<cv::Point2f>* corners) {
+  if (corners->size() <= most) return;
+  const auto strength_of = [&](const cv::Point2f& corner) {
+    return strength.at<float>(static_cast<int>(corner.y), static_cast<int>(corner.x));
+  };
+  std::vector<float> strengths;
+  for (const cv::Point2f& corner : *corners) strengths.push_back(strength_of(corner));
+  const auto last = strengths.begin() + static_cast<std::ptrdiff_t>(most) - 1;
+  std::nth_element(strengths.begin(), last, strengths.end(), std::greater<>());
+  auto equal = 1 + std::count(strengths.begin(), last, *last);
+  std::erase_if(*corners, [&, weakest = *last](const cv::Point2f& corner) {
+    const float its = strength_of(corner);
+    return its < weakest || (its == weakest && equal-- <= 0);
+  });
+}
+
 }  // namespace
 
 std::vector<cv::Point2f> DetectCorners(const cv::Mat& normalized, const FlowOptions& options,
@@ -52,6 +71,8 @@ std::vector<cv::Point2f> DetectCorners(const cv::Mat& normalized, const FlowOpti
       }
     }
   }
+  const auto window = static_cast<std::size_t>(options.window_px) * options.window_px;
+  KeepStrongest(buffers->strength, kMostWindowPixels / window, &corners);
   return corners;
 }
 

@@ -18,7 +18,8 @@ struct CornerBuffers {
 };
 
 // Corners of a normalised image (CV_32FC1), working pixels, row by row of cells. No two are nearer
-// than half a cell. `enlargement` is working size over source size, 1 if the image was shrunk.
+// than half a cell, and there are no more than kMostWindowPixels allows. `enlargement` is working
+// size over source size, 1 if the image was shrunk.
 std::vector<cv::Point2f> DetectCorners(const cv::Mat& normalized, const FlowOptions& options,
                                        double enlargement, CornerBuffers* buffers);
 std::vector<cv::Point2f> DetectCorners(const cv::Mat& normalized, const FlowOptions& options,

@@ -19,13 +19,14 @@ absl::Status CheckOddRange(const std::string& field, int value, int low, int hig
   return MustBe(field, value, absl::StrCat("odd and in [", low, ", ", high, "] px"));
 }
 
-// One corner a cell, each tracked by its window: together they say how long a pair of frames takes.
-// The limit is a fraction of a second.
+// One corner a cell, each tracked by its window: more of these than kMostWindowPixels allows would
+// be left out of an image as high as wide. Eight times as many are accepted, since few cells have
+// one.
 absl::Status CheckWork(const FlowOptions& options) {
-  constexpr double kMostWindowPixels = 1 << 26;
+  constexpr double kMost = 8.0 * kMostWindowPixels;
   const int width = options.working_width_px == 0 ? kMaxWorkingWidth : options.working_width_px;
   const double side = static_cast<double>(width) * options.window_px;
-  const int least_cell = static_cast<int>(std::ceil(side / std::sqrt(kMostWindowPixels)));
+  const int least_cell = static_cast<int>(std::ceil(side / std::sqrt(kMost)));
   if (options.cell_px >= least_cell) {
     return absl::OkStatus();
   }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "absl/strings/str_cat.h"
+#include "homing/base/status_macros.h"
 #include "homing/flow/corner_detector.h"
 #include "homing/flow/working_image.h"
 
@@ -35,18 +36,25 @@ constexpr double kConvergencePx = 0.01;
 // Least eigenvalue of A^T A for a solution (eqs 3 to 5), OpenCV's units; corners have far more.
 constexpr double kSingular = 1e-4;
 
+// Points tracked between two looks at the cancellation.
+constexpr std::size_t kPointsAtATime = 256;
+
 // Into `frame`, whose images of the same size are used again.
-void Prepare(const cv::Mat& gray, const FlowOptions& options, FlowBuffers* buffers,
-             TrackedFrame* frame) {
+absl::Status Prepare(const cv::Mat& gray, const FlowOptions& options,
+                     const Cancellation* cancellation, FlowBuffers* buffers, TrackedFrame* frame) {
+  HOMING_RETURN_IF_ERROR(CheckAwaited(cancellation));
   const cv::Mat& normalized = NormalizedImage(gray, options, &buffers->working);
+  HOMING_RETURN_IF_ERROR(CheckAwaited(cancellation));
   frame->source_size = gray.size();
   frame->scale = {double(normalized.cols) / gray.cols, double(normalized.rows) / gray.rows};
   frame->corners =
       DetectCorners(normalized, options, std::max(1.0, frame->scale.x), &buffers->corners);
+  HOMING_RETURN_IF_ERROR(CheckAwaited(cancellation));
   normalized.convertTo(buffers->levels, CV_8U, kLevelsPerDeviation, 128);
   const cv::Size window(options.window_px, options.window_px);
   cv::buildOpticalFlowPyramid(buffers->levels, frame->pyramid, window, options.pyramid_levels, true,
                               cv::BORDER_REFLECT_101, cv::BORDER_CONSTANT, false);
+  return absl::OkStatus();
 }
 
 // Where points of one frame are in another, and which were found.
@@ -55,15 +63,28 @@ struct Tracks {
   std::vector<unsigned char> found;
 };
 
-Tracks TrackPoints(const TrackedFrame& from, const TrackedFrame& to,
-                   const std::vector<cv::Point2f>& points, const FlowOptions& options) {
+// Each point is tracked without regard to the others.
+absl::StatusOr<Tracks> TrackPoints(const TrackedFrame& from, const TrackedFrame& to,
+                                   const std::vector<cv::Point2f>& points,
+                                   const FlowOptions& options, const Cancellation* cancellation) {
   Tracks tracks;
   const cv::Size window(options.window_px, options.window_px);
   const cv::TermCriteria end(cv::TermCriteria::COUNT | cv::TermCriteria::EPS, kIterations,
                              kConvergencePx);
-  // No error is asked for: it costs as much as an iteration.
-  cv::calcOpticalFlowPyrLK(from.pyramid, to.pyramid, points, tracks.ends, tracks.found,
-                           cv::noArray(), window, options.pyramid_levels, end, 0, kSingular);
+  for (std::size_t first = 0; first < points.size(); first += kPointsAtATime) {
+    HOMING_RETURN_IF_ERROR(CheckAwaited(cancellation));
+    const std::vector<cv::Point2f> some(
+        points.begin() + static_cast<std::ptrdiff_t>(first),
+        points.begin() +
+            static_cast<std::ptrdiff_t>(std::min(points.size(), first + kPointsAtATime)));
+    std::vector<cv::Point2f> ends;
+    std::vector<unsigned char> found;
+    // No error is asked for: it costs as much as an iteration.
+    cv::calcOpticalFlowPyrLK(from.pyramid, to.pyramid, some, ends, found, cv::noArray(), window,
+                             options.pyramid_levels, end, 0, kSingular);
+    tracks.ends.insert(tracks.ends.end(), ends.begin(), ends.end());
+    tracks.found.insert(tracks.found.end(), found.begin(), found.end());
+  }
   return tracks;
 }
 
@@ -83,14 +104,17 @@ bool IsInside(const FlowVector& v, const cv::Size& size) {
 }
 
 // Eqs 1 to 5 for the corners of `before`, forward and back again.
-FlowField FlowBetween(const TrackedFrame& before, const TrackedFrame& now,
-                      const FlowOptions& options) {
+absl::StatusOr<FlowField> FlowBetween(const TrackedFrame& before, const TrackedFrame& now,
+                                      const FlowOptions& options,
+                                      const Cancellation* cancellation) {
   FlowField field{now.source_size.width, now.source_size.height, {}};
   if (before.corners.empty()) {
     return field;
   }
-  const Tracks forward = TrackPoints(before, now, before.corners, options);
-  const Tracks backward = TrackPoints(now, before, forward.ends, options);
+  HOMING_ASSIGN_OR_RETURN(const Tracks forward,
+                          TrackPoints(before, now, before.corners, options, cancellation));
+  HOMING_ASSIGN_OR_RETURN(const Tracks backward,
+                          TrackPoints(now, before, forward.ends, options, cancellation));
   for (std::size_t i = 0; i < before.corners.size(); ++i) {
     if (forward.found[i] == 0 || backward.found[i] == 0) {
       continue;
@@ -122,7 +146,8 @@ FlowTracker::FlowTracker(FlowTracker&&) noexcept = default;
 FlowTracker& FlowTracker::operator=(FlowTracker&&) noexcept = default;
 FlowTracker::~FlowTracker() = default;
 
-absl::StatusOr<std::optional<FlowField>> FlowTracker::Track(const cv::Mat& gray) {
+absl::StatusOr<std::optional<FlowField>> FlowTracker::Track(const cv::Mat& gray,
+                                                            const Cancellation* cancellation) {
   const TrackedFrame& reference = state_->reference;
   if (gray.type() != CV_8UC1 || gray.empty()) {
     return absl::InvalidArgumentError("frame is not a grey image of 8 bits");
@@ -132,11 +157,12 @@ absl::StatusOr<std::optional<FlowField>> FlowTracker::Track(const cv::Mat& gray)
         "frame of ", gray.cols, " x ", gray.rows, " px differs from the reference frame of ",
         reference.source_size.width, " x ", reference.source_size.height, " px"));
   }
-  Prepare(gray, state_->options, &state_->buffers, &state_->now);
+  HOMING_RETURN_IF_ERROR(
+      Prepare(gray, state_->options, cancellation, &state_->buffers, &state_->now));
   if (!state_->has_reference) {
     return std::nullopt;
   }
-  return FlowBetween(reference, state_->now, state_->options);
+  return FlowBetween(reference, state_->now, state_->options, cancellation);
 }
 
 void FlowTracker::Advance() {

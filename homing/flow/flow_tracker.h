@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "absl/status/statusor.h"
+#include "homing/base/cancellation.h"
 #include "homing/flow/flow_vector.h"
 
 namespace homing {
@@ -41,6 +42,10 @@ struct FlowOptions {
   friend bool operator==(const FlowOptions&, const FlowOptions&) = default;
 };
 
+// Most corners of one frame times their window's pixels, whatever the image's size: a pair of
+// frames takes a second at most. Of more corners the strongest are tracked.
+inline constexpr std::size_t kMostWindowPixels = std::size_t{1} << 23;
+
 // INVALID_ARGUMENT naming field, value and limit.
 absl::Status Validate(const FlowOptions& options);
 
@@ -57,7 +62,9 @@ class FlowTracker {
   // `gray` is CV_8UC1. Returns the field from the reference frame to this frame, in source pixels,
   // short vectors included, in a deterministic order; nothing where there is no reference. The two
   // frames alone determine the field. INVALID_ARGUMENT: a size unlike the reference frame's.
-  absl::StatusOr<std::optional<FlowField>> Track(const cv::Mat& gray);
+  // CANCELLED: the frame was not tracked.
+  absl::StatusOr<std::optional<FlowField>> Track(const cv::Mat& gray,
+                                                 const Cancellation* cancellation = nullptr);
 
   // Makes the frame tracked last the reference. REQUIRES: Track was called since the last Advance.
   void Advance();

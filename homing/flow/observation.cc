@@ -141,7 +141,7 @@ absl::StatusOr<ObservedFlow> ObservationFlow::Compute(const Observation& observa
   if (checked[0].size.area() == 0 && checked[1].size.area() == 0) {
     return FieldError("left", "must be set unless right is");
   }
-  // Nothing below fails.
+  // Nothing below fails, unless it is cancelled.
   for (std::size_t side = 0; side < 2; ++side) {
     if (checked[side].size.area() != 0) sizes_[side] = checked[side].size;
   }
@@ -181,7 +181,8 @@ absl::StatusOr<ObservedFlow> ObservationFlow::TrackFrames(const CheckedViews& ch
     if (checked[side].gray.empty()) continue;
     std::optional<FlowTracker>& tracker = trackers_[side];
     if (!tracker) tracker.emplace(options_);
-    HOMING_ASSIGN_OR_RETURN(flow.fields[side], tracker->Track(checked[side].gray));
+    HOMING_ASSIGN_OR_RETURN(flow.fields[side],
+                            tracker->Track(checked[side].gray, limits_.cancellation));
     if (flow.fields[side]) {
       lost = lost ||
              (tracker->reference_corners() >= kMinVectors && tracker->corners() >= kMinVectors);

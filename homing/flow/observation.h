@@ -57,7 +57,8 @@ class ObservationFlow {
 
   // INVALID_ARGUMENT: undecodable frame, changed size, a vector that is not finite or over one
   // image size outside its image, over kMaxFlowVectors, no camera at all. After an error the state
-  // is as before the call. A camera that is absent at a step gives no flow until the next step.
+  // is as before the call. CANCELLED: the limits' cancellation; the object must not be used any
+  // more. A camera that is absent at a step gives no flow until the next step.
   absl::StatusOr<ObservedFlow> Compute(const Observation& observation);
   // As above. Also FAILED_PRECONDITION if a view differs from the known size of its camera.
   absl::StatusOr<ObservedFlow> Compute(const Observation& observation,

@@ -5,6 +5,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "homing/base/field_error.h"
+#include "homing/base/status_macros.h"
 #include "homing/image/jpeg_decoder.h"
 #include "homing/image/orientation.h"
 #include "homing/image/png_decoder.h"
@@ -33,6 +34,7 @@ absl::StatusOr<cv::Mat> Decode(const Frame& frame, const DecodeLimits& limits) {
 absl::StatusOr<cv::Mat> DecodeGray(const Frame& frame, const DecodeLimits& limits) {
   // OpenCV throws when memory runs out; no exception leaves this folder.
   try {
+    HOMING_RETURN_IF_ERROR(CheckAwaited(limits.cancellation));
     absl::StatusOr<cv::Mat> gray = Decode(frame, limits);
     const bool file =
         frame.encoding == FrameEncoding::kJpeg || frame.encoding == FrameEncoding::kPng;

@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "absl/status/statusor.h"
+#include "homing/base/cancellation.h"
 
 namespace homing {
 
@@ -27,13 +28,15 @@ struct DecodeLimits {
   int min_side_px = 16;
   int max_side_px = 8192;
   std::int64_t max_pixels = 16 * 1024 * 1024;
+  // Ends decoding, and the tracking that follows, early. Must outlive what is given these limits.
+  const Cancellation* cancellation = nullptr;
 };
 
 // Grey image, CV_8UC1, height x width; it owns its pixels. Colour becomes 0.299 R + 0.587 G + 0.114
 // B. 16-bit grey is stretched to the range that it uses. JPEG and PNG are turned by their EXIF
 // orientation, so width and height may change places. INVALID_ARGUMENT: dimensions outside the
 // limits or different from the header, wrong length of the data, or data that is no complete image.
-// Thread-safe.
+// CANCELLED. Thread-safe.
 absl::StatusOr<cv::Mat> DecodeGray(const Frame& frame, const DecodeLimits& limits = {});
 
 }  // namespace homing

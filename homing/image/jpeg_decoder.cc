@@ -1,6 +1,8 @@
 #include "homing/image/jpeg_decoder.h"
 
+#include <algorithm>
 #include <csetjmp>
+#include <cstdint>
 #include <cstdio>
 #include <string>
 
@@ -16,8 +18,10 @@
 namespace homing {
 namespace {
 
-// A progressive file of more scans than this is made to waste time.
+// A progressive file of more scans than this is made to waste time; so is a large one of fewer:
+// each scan visits all pixels. Cameras write about ten.
 constexpr int kMaxScans = 500;
+constexpr std::int64_t kMaxPixelsOfScans = std::int64_t{1} << 29;
 
 // libjpeg's state of one image. `jump` is where its errors end; no object with a destructor may
 // live between setjmp and a call into libjpeg.
@@ -31,6 +35,8 @@ struct Decoder {
   jpeg_error_mgr errors{};
   jpeg_progress_mgr progress{};
   std::jmp_buf jump{};
+  const Cancellation* cancellation = nullptr;
+  int max_scans = kMaxScans;
   char message[JMSG_LENGTH_MAX] = "";
 };
 
@@ -46,10 +52,15 @@ void Warn(j_common_ptr jpeg, int level) {
   if (level < 0 && jpeg->err->msg_code != JWRN_EXTRANEOUS_DATA) Fail(jpeg);
 }
 
-void LimitScans(j_common_ptr jpeg) {
+// Called for each row of blocks of each scan.
+void LimitWork(j_common_ptr jpeg) {
   auto* decoder = static_cast<Decoder*>(jpeg->client_data);
-  if (decoder->jpeg.input_scan_number <= kMaxScans) return;
-  std::snprintf(decoder->message, sizeof(decoder->message), "it has more than %d scans", kMaxScans);
+  if (decoder->cancellation != nullptr && decoder->cancellation->IsCancelled()) {
+    std::longjmp(decoder->jump, 1);
+  }
+  if (decoder->jpeg.input_scan_number <= decoder->max_scans) return;
+  std::snprintf(decoder->message, sizeof(decoder->message), "it has more than %d scans",
+                decoder->max_scans);
   std::longjmp(decoder->jump, 1);
 }
 
@@ -64,7 +75,7 @@ void Begin(Decoder* decoder) {
 bool ReadHeader(Decoder* decoder, std::string_view bytes) {
   if (setjmp(decoder->jump) != 0) return false;
   jpeg_create_decompress(&decoder->jpeg);
-  decoder->progress.progress_monitor = &LimitScans;
+  decoder->progress.progress_monitor = &LimitWork;
   decoder->jpeg.progress = &decoder->progress;
   jpeg_mem_src(&decoder->jpeg, reinterpret_cast<const unsigned char*>(bytes.data()),
                static_cast<unsigned long>(bytes.size()));
@@ -94,13 +105,20 @@ absl::Status JpegError(const Decoder& decoder) {
 
 absl::StatusOr<cv::Mat> DecodeJpeg(const Frame& frame, const DecodeLimits& limits) {
   Decoder decoder;
+  decoder.cancellation = limits.cancellation;
   Begin(&decoder);
   if (!ReadHeader(&decoder, frame.data)) return JpegError(decoder);
   const Dimensions size{decoder.jpeg.image_width, decoder.jpeg.image_height};
   HOMING_RETURN_IF_ERROR(CheckLimits(size, limits));
   HOMING_RETURN_IF_ERROR(CheckDeclared(frame, size));
+  const std::int64_t pixels = std::int64_t{size.width} * std::int64_t{size.height};
+  decoder.max_scans =
+      static_cast<int>(std::min<std::int64_t>(kMaxScans, kMaxPixelsOfScans / pixels));
   cv::Mat gray(static_cast<int>(size.height), static_cast<int>(size.width), CV_8UC1);
-  if (!ReadPixels(&decoder, gray.data, gray.step[0])) return JpegError(decoder);
+  if (!ReadPixels(&decoder, gray.data, gray.step[0])) {
+    HOMING_RETURN_IF_ERROR(CheckAwaited(limits.cancellation));
+    return JpegError(decoder);
+  }
   return gray;
 }
 

@@ -192,7 +192,8 @@ absl::Status JourneyCatalog::AddIfCovered(const JourneyName& pattern, const std:
 }
 
 absl::StatusOr<LiveJourneys> JourneyCatalog::Resolve(const JourneyName& pattern,
-                                                     const JourneyFilter& filter) {
+                                                     const JourneyFilter& filter,
+                                                     const Cancellation* cancellation) {
   LiveJourneys journeys;
   if (!pattern.is_pattern()) {
     HOMING_ASSIGN_OR_RETURN(auto journey, FindOrOpen(pattern.ToString()));
@@ -204,6 +205,7 @@ absl::StatusOr<LiveJourneys> JourneyCatalog::Resolve(const JourneyName& pattern,
     HOMING_ASSIGN_OR_RETURN(const std::vector<JourneyRecord> page,
                             store_->ListJourneys(PrefixOf(pattern.robot), after, kListPage));
     for (const JourneyRecord& record : page) {
+      HOMING_RETURN_IF_ERROR(CheckAwaited(cancellation));
       if (!filter || filter(record)) {
         HOMING_RETURN_IF_ERROR(AddIfCovered(pattern, record.name, &journeys));
       }
@@ -236,9 +238,11 @@ absl::Status JourneyCatalog::LoadMap(const JourneyName& pattern, LiveJourney* jo
   return absl::OkStatus();
 }
 
-absl::Status JourneyCatalog::LoadMaps(const JourneyName& pattern, LiveJourneys* journeys) {
+absl::Status JourneyCatalog::LoadMaps(const JourneyName& pattern, LiveJourneys* journeys,
+                                      const Cancellation* cancellation) {
   LiveJourneys loaded;
   for (const std::shared_ptr<LiveJourney>& journey : *journeys) {
+    HOMING_RETURN_IF_ERROR(CheckAwaited(cancellation));
     absl::Status status = LoadMap(pattern, journey.get());
     if (status.ok()) {
       loaded.push_back(journey);

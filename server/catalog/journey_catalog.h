@@ -11,6 +11,7 @@
 
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
+#include "homing/base/cancellation.h"
 #include "homing/base/mutex.h"
 #include "server/base/resource_name.h"
 #include "server/catalog/journey_cache.h"
@@ -77,13 +78,15 @@ class JourneyCatalog {
   // The journey with its map, loaded if necessary. NOT_FOUND.
   absl::StatusOr<std::shared_ptr<LiveJourney>> Open(const std::string& name);
   // The journeys that `pattern` covers, in order of name; `filter` applies to a wildcard only.
-  // Loads no map. NOT_FOUND: none.
+  // Loads no map. NOT_FOUND: none. CANCELLED.
   absl::StatusOr<LiveJourneys> Resolve(const JourneyName& pattern,
-                                       const JourneyFilter& filter = nullptr);
+                                       const JourneyFilter& filter = nullptr,
+                                       const Cancellation* cancellation = nullptr);
   // Loads the maps of journeys that Resolve returned for `pattern`. Of a wildcard, drops those that
   // were deleted meanwhile. NOT_FOUND: none is left. RESOURCE_EXHAUSTED: the maps of a wildcard,
-  // and those in use by others, need more memory than cache_bytes.
-  absl::Status LoadMaps(const JourneyName& pattern, LiveJourneys* journeys);
+  // and those in use by others, need more memory than cache_bytes. CANCELLED.
+  absl::Status LoadMaps(const JourneyName& pattern, LiveJourneys* journeys,
+                        const Cancellation* cancellation = nullptr);
   // As LiveJourney::Claim. Loads no map. NOT_FOUND.
   absl::StatusOr<WriterClaim> Claim(const std::string& name, const std::string& writer_id,
                                     TimePoint now, WriterLease::Evict evict);

@@ -98,11 +98,26 @@ std::string ConsoleServer::State::CookieHeader(const Request& request, const std
                       tls ? "; Secure" : "");
 }
 
+absl::StatusOr<std::string> ConsoleServer::State::Try(
+    const Request& request, const std::string& what,
+    const std::function<absl::StatusOr<std::string>()>& open) {
+  const auto now = std::chrono::steady_clock::now();
+  const std::string& from = request.remote_addr;
+  if (!logins.MayTry(from, now)) {
+    return absl::ResourceExhaustedError("too many logins from your address failed; wait a minute");
+  }
+  auto cookie = open();
+  spdlog::info("audit: {} from {}: {}", what, from, cookie.ok() ? "ok" : "refused");
+  if (!cookie.ok()) logins.NoteFailure(from, now);
+  return cookie;
+}
+
 void ConsoleServer::State::LogIn(const Request& request, Response* response) {
   const auto body = nlohmann::json::parse(request.body, nullptr, false);
   const bool good = body.is_object() && body.contains("token") && body["token"].is_string();
-  const auto cookie = sessions.Open(good ? body["token"].get<std::string>() : "");
-  spdlog::info("audit: login from {}: {}", request.remote_addr, cookie.ok() ? "ok" : "refused");
+  const auto cookie = Try(request, "login", [&] {
+    return sessions.Open(good ? body["token"].get<std::string>() : "");
+  });
   if (!cookie.ok()) {
     Send(response, ToAnswer(cookie.status()));
     return;
@@ -113,9 +128,8 @@ void ConsoleServer::State::LogIn(const Request& request, Response* response) {
 }
 
 void ConsoleServer::State::FollowLink(const Request& request, Response* response) {
-  const auto cookie = sessions.TakeLink(request.get_param_value("once"));
-  spdlog::info("audit: login by link from {}: {}", request.remote_addr,
-               cookie.ok() ? "ok" : "refused");
+  const auto cookie = Try(request, "login by link",
+                          [&] { return sessions.TakeLink(request.get_param_value("once")); });
   if (cookie.ok()) {
     const int life = static_cast<int>(std::chrono::seconds(SessionBook::kLife).count());
     response->set_header("Set-Cookie", CookieHeader(request, *cookie, life));

@@ -9,19 +9,9 @@
 #include "server/http/console_state.h"
 
 namespace homing::server {
-namespace {
 
 using httplib::Request;
 using httplib::Response;
-
-// A thread a connection: browsers keep some open, and each event stream holds one.
-constexpr std::size_t kThreads = 64;
-constexpr int kTimeoutS = 2;
-// Of one connection.
-constexpr std::size_t kMaxRequests = 1000;
-constexpr std::size_t kMaxBody = 1 << 20;
-
-}  // namespace
 
 void ConsoleServer::State::Route() {
   using Handled = httplib::Server::HandlerResponse;
@@ -30,62 +20,46 @@ void ConsoleServer::State::Route() {
       (this->*handle)(request, &response);
     };
   };
-  server->set_pre_routing_handler([this](const Request& request, Response& response) {
+  server.set_pre_routing_handler([this](const Request& request, Response& response) {
     return Refuse(request, &response) ? Handled::Handled : Handled::Unhandled;
   });
-  server->set_exception_handler([](const Request&, Response& response, const std::exception_ptr&) {
+  server.set_exception_handler([](const Request&, Response& response, const std::exception_ptr&) {
     Send(&response, ToAnswer(absl::InternalError("the request failed")));
   });
-  server->Get("/metrics", [this](const Request&, Response& response) {
+  server.Get("/metrics", [this](const Request&, Response& response) {
     Send(&response, context.metrics(), "text/plain; version=0.0.4; charset=utf-8");
   });
-  server->Get("/healthz", [this](const Request&, Response& response) {
+  server.Get("/healthz", [this](const Request&, Response& response) {
     const bool well = context.healthy();
     response.status = well ? 200 : 503;
     Send(&response, well ? "ok\n" : "not serving\n", "text/plain; charset=utf-8");
   });
-  server->Get("/login", to(&State::FollowLink));
-  server->Post("/api/v1/login", to(&State::LogIn));
-  server->Post("/api/v1/logout", to(&State::LogOut));
-  server->Get("/api/v1/session", to(&State::ShowSession));
-  server->Post("/api/v1/([A-Za-z]+/[A-Za-z]+)", to(&State::CallApi));
-  server->Get("/events", to(&State::SendEvents));
-  server->Get(
-      "/.*", [this](const Request& request, Response& response) { SendAsset(request, &response); });
+  server.Get("/login", to(&State::FollowLink));
+  server.Post("/api/v1/login", to(&State::LogIn));
+  server.Post("/api/v1/logout", to(&State::LogOut));
+  server.Get("/api/v1/session", to(&State::ShowSession));
+  server.Post("/api/v1/([A-Za-z]+/[A-Za-z]+)", to(&State::CallApi));
+  server.Get("/events", to(&State::SendEvents));
+  server.Get("/.*",
+             [this](const Request& request, Response& response) { SendAsset(request, &response); });
 }
 
 absl::Status ConsoleServer::State::Listen() {
-  if (options.tls_cert.empty()) {
-    server = std::make_unique<httplib::Server>();
-  } else {
-    server =
-        std::make_unique<httplib::SSLServer>(options.tls_cert.c_str(), options.tls_key.c_str());
+  if (!options.tls_cert.empty()) {
+    HOMING_RETURN_IF_ERROR(server.UseCertificate(options.tls_cert, options.tls_key));
   }
-  if (!server->is_valid()) return absl::InvalidArgumentError("http: the TLS files are bad");
-  server->new_task_queue = [] { return new httplib::ThreadPool(kThreads); };
-  server->set_tcp_nodelay(true);
-  // The library's own options let a second server share the port silently.
-  server->set_socket_options([](socket_t socket) {
-    const int yes = 1;
-    ::setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof(yes));
-  });
-  server->set_keep_alive_timeout(kTimeoutS);
-  server->set_keep_alive_max_count(kMaxRequests);
-  server->set_read_timeout(kTimeoutS);
-  server->set_write_timeout(kTimeoutS);
-  server->set_payload_max_length(kMaxBody);
   Route();
   HOMING_ASSIGN_OR_RETURN(const HostPort parsed, ParseHostPort("http", options.address, 0));
   const bool any = parsed.port == 0;
-  const int port = any ? server->bind_to_any_port(parsed.host)
-                       : (server->bind_to_port(parsed.host, parsed.port) ? parsed.port : -1);
+  const int port = any ? server.bind_to_any_port(parsed.host)
+                       : (server.bind_to_port(parsed.host, parsed.port) ? parsed.port : -1);
   if (port <= 0) {
     return absl::UnavailableError(absl::StrCat("http: \"", options.address,
                                                "\" is in use or is not an address of this "
                                                "machine"));
   }
   address = absl::StrCat(options.address.substr(0, options.address.rfind(':')), ":", port);
-  thread = std::thread([this] { server->listen_after_bind(); });
+  thread = std::thread([this] { server.listen_after_bind(); });
   return absl::OkStatus();
 }
 
@@ -101,8 +75,8 @@ ConsoleServer::~ConsoleServer() {
   }
   for (const auto& feed : feeds) feed->Stop();
   // A server that does not listen yet would not notice the stop.
-  while (!state_->server->is_running()) std::this_thread::yield();
-  state_->server->stop();
+  while (!state_->server.is_running()) std::this_thread::yield();
+  state_->server.stop();
   state_->thread.join();
 }
 
@@ -119,17 +93,8 @@ absl::StatusOr<std::string> ConsoleServer::MakeLoginLink(const std::string& iden
 
 absl::Status ConsoleServer::ReloadCertificate() {
   const ConsoleOptions& options = state_->options;
-  auto* const server = dynamic_cast<httplib::SSLServer*>(state_->server.get());
-  if (server == nullptr) return absl::OkStatus();
-  // Tried in a context of its own first: a half-written pair must not replace a good one.
-  const httplib::SSLServer trial(options.tls_cert.c_str(), options.tls_key.c_str());
-  if (!trial.is_valid()) {
-    return absl::InvalidArgumentError("http: the TLS files cannot be used now");
-  }
-  SSL_CTX* const context = server->ssl_context();
-  SSL_CTX_use_certificate_chain_file(context, options.tls_cert.c_str());
-  SSL_CTX_use_PrivateKey_file(context, options.tls_key.c_str(), SSL_FILETYPE_PEM);
-  return absl::OkStatus();
+  if (options.tls_cert.empty()) return absl::OkStatus();
+  return state_->server.UseCertificate(options.tls_cert, options.tls_key);
 }
 
 absl::StatusOr<std::unique_ptr<ConsoleServer>> ConsoleServer::Start(const ConsoleOptions& options,

@@ -4,6 +4,7 @@
 
 #include <httplib.h>
 
+#include <functional>
 #include <memory>
 #include <set>
 #include <string>
@@ -11,8 +12,10 @@
 
 #include "homing/base/mutex.h"
 #include "server/http/api_gateway.h"
+#include "server/http/bounded_server.h"
 #include "server/http/console_server.h"
 #include "server/http/event_feed.h"
+#include "server/http/login_limit.h"
 #include "server/http/session_book.h"
 
 namespace homing::server {
@@ -31,6 +34,9 @@ struct ConsoleServer::State {
   absl::Status Listen();
   void Route();
   bool Refuse(const httplib::Request& request, httplib::Response* response) const;
+  // A new session; the failures of each address are limited. UNAUTHENTICATED, RESOURCE_EXHAUSTED.
+  absl::StatusOr<std::string> Try(const httplib::Request& request, const std::string& what,
+                                  const std::function<absl::StatusOr<std::string>()>& open);
   absl::StatusOr<Login> LoginOf(const httplib::Request& request);
   void LogIn(const httplib::Request& request, httplib::Response* response);
   void FollowLink(const httplib::Request& request, httplib::Response* response);
@@ -45,8 +51,9 @@ struct ConsoleServer::State {
   const ConsoleOptions options;
   const ConsoleContext context;
   SessionBook sessions;
+  LoginLimit logins;
   const ApiGateway gateway;
-  std::unique_ptr<httplib::Server> server;
+  BoundedServer server;
   std::string address;
   Mutex mutex;
   std::set<std::shared_ptr<EventFeed>> feeds HOMING_GUARDED_BY(mutex);

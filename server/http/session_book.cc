@@ -1,5 +1,6 @@
 #include "server/http/session_book.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "homing/base/status_macros.h"
@@ -7,10 +8,23 @@
 namespace homing::server {
 namespace {
 
-// More logins than operators have browsers: the oldest ends.
 constexpr std::size_t kMaxSessions = 1000;
+// Of one token; the oldest ends, so that one caller does not keep the others out.
+constexpr std::ptrdiff_t kMaxOfOneToken = 20;
 
 }  // namespace
+
+void SessionBook::MakeRoomFor(const std::string& token) {
+  const auto is_its = [&](const auto& session) { return session.second.login.token == token; };
+  while (std::count_if(sessions_.begin(), sessions_.end(), is_its) >= kMaxOfOneToken) {
+    auto oldest = sessions_.end();
+    for (auto i = sessions_.begin(); i != sessions_.end(); ++i) {
+      if (is_its(*i) && (oldest == sessions_.end() || i->second.end < oldest->second.end))
+        oldest = i;
+    }
+    sessions_.erase(oldest);
+  }
+}
 
 void SessionBook::RemoveExpired() {
   const auto now = clock_();
@@ -30,6 +44,7 @@ absl::StatusOr<std::string> SessionBook::Add(const std::string& token, bool lent
   HOMING_ASSIGN_OR_RETURN(const std::string csrf, MakeToken());
   const MutexLock lock(mutex_);
   RemoveExpired();
+  MakeRoomFor(token);
   if (sessions_.size() >= kMaxSessions) {
     return absl::ResourceExhaustedError("too many browsers are logged in");
   }

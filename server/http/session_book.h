@@ -60,6 +60,7 @@ class SessionBook {
 
   absl::StatusOr<std::string> Add(const std::string& token, bool lent);
   void RemoveExpired() HOMING_REQUIRES(mutex_);
+  void MakeRoomFor(const std::string& token) HOMING_REQUIRES(mutex_);
 
   AccessControl* const access_;
   const Clock clock_;

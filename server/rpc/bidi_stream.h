@@ -179,6 +179,12 @@ class BidiStream : public grpc::ServerBidiReactor<Request, Response>,
     FinishIfOver();
   }
 
+  // Ends decoding once the client does not wait for an answer any more.
+  DecodeLimits decode_limits() const {
+    DecodeLimits limits = core_->options.decode;
+    limits.cancellation = &watch_;
+    return limits;
+  }
   ServiceCore* core() { return core_; }
   IncomingCall& call() { return call_; }
 

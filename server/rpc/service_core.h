@@ -60,6 +60,9 @@ inline std::int64_t WallClockNs() {
 // The order of destruction is the reverse: first the workers, then the commit queue, then the
 // store.
 struct ServiceCore {
+  // That wait.
+  static constexpr int kMaxLongWork = 16;
+
   ServiceCore(std::unique_ptr<storage::JourneyStore> opened,
               std::shared_ptr<AccessControl> access_control, const CoreOptions& core_options)
       : options(core_options),
@@ -78,7 +81,7 @@ struct ServiceCore {
         queue(store.get(), QueueOptions(metrics.get())),
         pool(core_options.workers) {}
 
-  RecordingContext recording() { return {&catalog, &queue, options.decode}; }
+  RecordingContext recording(const DecodeLimits& limits) { return {&catalog, &queue, limits}; }
 
   const CoreOptions options;
   const std::unique_ptr<Metrics> metrics;
@@ -100,6 +103,8 @@ struct ServiceCore {
   std::atomic<std::int64_t> import_bytes = 0;
   storage::CommitQueue queue;
   StreamRegistry streams;
+  // What may take long, so that robots do not wait for it: one at a time.
+  WorkerPool long_work{1, kMaxLongWork};
   WorkerPool pool;
 };
 

@@ -6,13 +6,14 @@
 
 #include <atomic>
 
+#include "homing/base/cancellation.h"
 #include "homing/base/mutex.h"
 #include "server/rpc/service_core.h"
 
 namespace homing::server {
 
 // Thread-safe.
-class StreamWatch {
+class StreamWatch : public Cancellation {
  public:
   StreamWatch(ServiceCore* core, grpc::ServerContextBase* context)
       : core_(core), context_(context), moved_(core->options.clock()) {}
@@ -24,7 +25,7 @@ class StreamWatch {
     return most.count() > 0 && core_->options.clock() - moved_.load() > most;
   }
   // The client cancelled the call, its link broke, or BreakOff ended it.
-  bool IsCancelled() const {
+  bool IsCancelled() const override {
     const MutexLock lock(mutex_);
     return context_ == nullptr || context_->IsCancelled();
   }

@@ -9,6 +9,8 @@
 #include <type_traits>
 #include <utility>
 
+#include "homing/base/cancellation.h"
+#include "homing/base/status_macros.h"
 #include "server/base/trace_scope.h"
 #include "server/rpc/incoming_call.h"
 #include "server/rpc/service_core.h"
@@ -16,21 +18,34 @@
 
 namespace homing::server {
 
+// Whether the client still waits for its answer. The call must not have finished.
+class UnaryCancellation : public Cancellation {
+ public:
+  explicit UnaryCancellation(const grpc::CallbackServerContext* context) : context_(context) {}
+  bool IsCancelled() const override { return context_->IsCancelled(); }
+
+ private:
+  const grpc::CallbackServerContext* const context_;
+};
+
 // `call` is absl::Status(const JourneyFilter&), or takes the IncomingCall too. It runs only if the
 // caller may do this to `resource`, and may use the RPC's request and response, which outlive it.
-// For a pattern it must apply the filter.
+// For a pattern it must apply the filter. `pool` belongs to the core.
 template <typename Call>
 grpc::ServerUnaryReactor* ServeUnary(ServiceCore* core, grpc::CallbackServerContext* context,
-                                     Rpc rpc, const std::string& resource, Call call) {
+                                     Rpc rpc, const std::string& resource, Call call,
+                                     WorkerPool* pool) {
   grpc::ServerUnaryReactor* reactor = context->DefaultReactor();
   const auto incoming = std::make_shared<IncomingCall>(core, *context, rpc);
   absl::Status admitted = incoming->identified();
   if (core->streams.draining()) {
     admitted = DrainingError();
   } else if (admitted.ok() &&
-             core->pool.TryRun([reactor, incoming, resource, call = std::move(call)] {
+             pool->TryRun([reactor, context, incoming, resource, call = std::move(call)] {
                const TraceScope scope(incoming->trace());
                reactor->Finish(incoming->Finish(Guarded([&] {
+                 const UnaryCancellation cancellation(context);
+                 HOMING_RETURN_IF_ERROR(CheckAwaited(&cancellation));
                  absl::Status allowed = incoming->Authorize(resource);
                  if (!allowed.ok()) return allowed;
                  if constexpr (std::is_invocable_v<Call, JourneyFilter, const IncomingCall&>) {
@@ -46,6 +61,12 @@ grpc::ServerUnaryReactor* ServeUnary(ServiceCore* core, grpc::CallbackServerCont
   }
   reactor->Finish(incoming->Finish(admitted));
   return reactor;
+}
+
+template <typename Call>
+grpc::ServerUnaryReactor* ServeUnary(ServiceCore* core, grpc::CallbackServerContext* context,
+                                     Rpc rpc, const std::string& resource, Call call) {
+  return ServeUnary(core, context, rpc, resource, std::move(call), &core->pool);
 }
 
 }  // namespace homing::server

@@ -10,17 +10,20 @@ namespace homing::server {
 grpc::ServerUnaryReactor* HomingServiceHandler::MatchLandmarks(
     grpc::CallbackServerContext* context, const v1::MatchLandmarksRequest* request,
     v1::MatchLandmarksResponse* response) {
-  return ServeUnary(core_, context, Rpc::kMatchLandmarks, request->journey(),
-                    [core = core_, request, response](const JourneyFilter& filter) -> absl::Status {
-                      HOMING_ASSIGN_OR_RETURN(LandmarkQuery query,
-                                              DecodeLandmarkQuery(*request, core->options.wire));
-                      query.filter = filter;
-                      HOMING_ASSIGN_OR_RETURN(
-                          const LandmarkQueryResult result,
-                          server::MatchLandmarks(&core->catalog, query, core->options.decode));
-                      *response = EncodeQueryResult(result);
-                      return absl::OkStatus();
-                    });
+  return ServeUnary(
+      core_, context, Rpc::kMatchLandmarks, request->journey(),
+      [core = core_, context, request, response](const JourneyFilter& filter) -> absl::Status {
+        HOMING_ASSIGN_OR_RETURN(LandmarkQuery query,
+                                DecodeLandmarkQuery(*request, core->options.wire));
+        query.filter = filter;
+        const UnaryCancellation cancellation(context);
+        DecodeLimits limits = core->options.decode;
+        limits.cancellation = &cancellation;
+        HOMING_ASSIGN_OR_RETURN(const LandmarkQueryResult result,
+                                server::MatchLandmarks(&core->catalog, query, limits));
+        *response = EncodeQueryResult(result);
+        return absl::OkStatus();
+      });
 }
 
 grpc::ServerBidiReactor<v1::LocalizeRequest, v1::LocalizeResponse>* HomingServiceHandler::Localize(

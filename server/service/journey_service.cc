@@ -107,7 +107,8 @@ grpc::ServerUnaryReactor* JourneyServiceHandler::AnalyzeAliasing(
       core_, context, Rpc::kAnalyzeAliasing, request->name(),
       [core = core_, request, response](const JourneyFilter& /*all*/) -> absl::Status {
         return DescribeAliasing(*request, &core->catalog, response);
-      });
+      },
+      &core_->long_work);
 }
 
 grpc::ServerUnaryReactor* JourneyServiceHandler::DescribeRoute(

@@ -31,8 +31,8 @@ absl::Status LocalizeStream::Begin(const v1::LocalizeConfig& config) {
   HOMING_RETURN_IF_ERROR(call().Authorize(config.journey()));
   HOMING_ASSIGN_OR_RETURN(HomingQuery query, DecodeHomingQuery(config));
   query.filter = call().filter();
-  HOMING_ASSIGN_OR_RETURN(
-      session_, LocalizationSession::Open(&core()->catalog, query, core()->options.decode));
+  HOMING_ASSIGN_OR_RETURN(session_,
+                          LocalizationSession::Open(&core()->catalog, query, decode_limits()));
   const std::string robot = call().RobotOf(config.robot(), config.journey());
   if (!robot.empty()) {
     HOMING_RETURN_IF_ERROR(ParseRobotName(robot, "config.robot", false).status());

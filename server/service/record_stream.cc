@@ -52,8 +52,9 @@ absl::Status RecordStream::Begin(const v1::RecordingConfig& config) {
     }
   };
   HOMING_ASSIGN_OR_RETURN(
-      session_, RecordingSession::Open(core()->recording(), config.journey(), config.writer_id(),
-                                       core()->options.clock(), std::move(listener)));
+      session_,
+      RecordingSession::Open(core()->recording(decode_limits()), config.journey(),
+                             config.writer_id(), core()->options.clock(), std::move(listener)));
   return absl::OkStatus();
 }
 

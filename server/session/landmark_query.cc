@@ -138,9 +138,10 @@ absl::StatusOr<LandmarkQueryResult> MatchLandmarks(JourneyCatalog* catalog,
   if (catalog->index() != nullptr && IsAll(pattern) && !query.filter) {
     return MatchAll(catalog->index(), query, robot, limits);
   }
-  HOMING_ASSIGN_OR_RETURN(const LiveJourneys covered, catalog->Resolve(pattern, query.filter));
+  HOMING_ASSIGN_OR_RETURN(const LiveJourneys covered,
+                          catalog->Resolve(pattern, query.filter, limits.cancellation));
   HOMING_ASSIGN_OR_RETURN(JourneySelection selection, SelectJourneys(covered, pattern, robot));
-  HOMING_RETURN_IF_ERROR(catalog->LoadMaps(pattern, &selection.journeys));
+  HOMING_RETURN_IF_ERROR(catalog->LoadMaps(pattern, &selection.journeys, limits.cancellation));
   HOMING_ASSIGN_OR_RETURN(SeenNow now, See(query, selection.options, limits));
 
   LandmarkQueryResult result{now.motion, {}, std::move(now.sides)};

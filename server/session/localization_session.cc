@@ -57,11 +57,13 @@ absl::StatusOr<std::unique_ptr<LocalizationSession>> LocalizationSession::Open(
   }
   std::unique_ptr<LocalizationSession> session(
       new LocalizationSession(catalog, query, std::move(pattern), limits));
-  HOMING_ASSIGN_OR_RETURN(session->journeys_, catalog->Resolve(session->pattern_, query.filter));
+  HOMING_ASSIGN_OR_RETURN(session->journeys_,
+                          catalog->Resolve(session->pattern_, query.filter, limits.cancellation));
   HOMING_RETURN_IF_ERROR(
       SelectJourneys(session->journeys_, session->pattern_, RobotOf(query)).status());
   if (!session->pattern_.is_pattern()) {
-    HOMING_RETURN_IF_ERROR(catalog->LoadMaps(session->pattern_, &session->journeys_));
+    HOMING_RETURN_IF_ERROR(
+        catalog->LoadMaps(session->pattern_, &session->journeys_, limits.cancellation));
   }
   return session;
 }
@@ -86,8 +88,9 @@ absl::Status LocalizationSession::Start(const Observation& observation) {
   selection.options.position = query_.position;
   HOMING_RETURN_IF_ERROR(Validate(selection.options));
   journeys_ = std::move(selection.journeys);
-  HOMING_RETURN_IF_ERROR(catalog_->LoadMaps(pattern_, &journeys_));
-  localizer_.emplace(selection.options, limits_);
+  HOMING_RETURN_IF_ERROR(catalog_->LoadMaps(pattern_, &journeys_, limits_.cancellation));
+  options_ = selection.options;
+  localizer_.emplace(options_, limits_);
   return absl::OkStatus();
 }
 
@@ -102,22 +105,38 @@ absl::Status LocalizationSession::StartAt(const LocalizationPrior& prior) {
   return absl::OkStatus();
 }
 
+absl::Status LocalizationSession::LeaveDeleted() {
+  const auto deleted = [](const auto& journey) { return journey->deleted(); };
+  if (std::none_of(journeys_.begin(), journeys_.end(), deleted)) return absl::OkStatus();
+  if (position_.step) {
+    prior_ = LocalizationPrior{
+        journey_name(position_.journey),
+        {0, *position_.step, position_.direction, position_.probability, position_.path_offset}};
+  }
+  std::erase_if(journeys_, deleted);
+  if (journeys_.empty()) {
+    return absl::NotFoundError(absl::StrCat("journey: \"", pattern_.ToString(), "\" was deleted"));
+  }
+  localizer_.emplace(options_, limits_);
+  started_ = false;
+  return absl::OkStatus();
+}
+
 absl::StatusOr<Localization> LocalizationSession::Localize(const Observation& observation) {
   HOMING_RETURN_IF_ERROR(CheckSequence(observation.sequence));
   if (!localizer_) {
     HOMING_RETURN_IF_ERROR(Start(observation));
   }
-  if (!pattern_.is_pattern() && journeys_.front()->deleted()) {
-    return absl::NotFoundError(absl::StrCat("journey: \"", pattern_.ToString(), "\" was deleted"));
-  }
+  HOMING_RETURN_IF_ERROR(LeaveDeleted());
   const MapsLock lock(journeys_);
-  if (!started_ && query_.prior) {
-    HOMING_RETURN_IF_ERROR(StartAt(*query_.prior));
+  if (!started_ && prior_) {
+    HOMING_RETURN_IF_ERROR(StartAt(*prior_));
   }
   started_ = true;
   absl::StatusOr<Localization> result = localizer_->Localize(observation, RefsOf(journeys_));
   if (!result.ok()) return Within("observation", result.status());
   due_ = observation.sequence + 1;
+  position_ = result.position;
   return result;
 }
 

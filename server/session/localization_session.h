@@ -33,7 +33,7 @@ struct HomingQuery {
 };
 
 // Not thread-safe. The first observation selects the journeys, once image sizes are known; their
-// maps may grow afterwards. Nothing is stored.
+// maps may grow afterwards, and a wildcard's may be deleted. Nothing is stored.
 class LocalizationSession {
  public:
   // `catalog` must outlive the session. INVALID_ARGUMENT, NOT_FOUND, FAILED_PRECONDITION (the named
@@ -43,8 +43,9 @@ class LocalizationSession {
                                                                    const DecodeLimits& limits);
 
   // The first observation may have any sequence; each later one must have the next: OUT_OF_RANGE.
-  // NOT_FOUND: the named journey was deleted. FAILED_PRECONDITION: other camera or settings.
-  // INVALID_ARGUMENT. RESOURCE_EXHAUSTED: as JourneyCatalog::LoadMaps.
+  // NOT_FOUND: the named journey was deleted, or all of a wildcard. After one of a wildcard was
+  // deleted, the others go on from the belief as after a break. FAILED_PRECONDITION: other camera
+  // or settings. INVALID_ARGUMENT. RESOURCE_EXHAUSTED: as JourneyCatalog::LoadMaps.
   absl::StatusOr<Localization> Localize(const Observation& observation);
 
   // Where the robot may be on one journey after the last observation, in at most `most` groups of
@@ -66,17 +67,28 @@ class LocalizationSession {
  private:
   LocalizationSession(JourneyCatalog* catalog, const HomingQuery& query, JourneyName pattern,
                       const DecodeLimits& limits)
-      : catalog_(catalog), query_(query), pattern_(std::move(pattern)), limits_(limits) {}
+      : catalog_(catalog),
+        query_(query),
+        pattern_(std::move(pattern)),
+        limits_(limits),
+        prior_(query.prior) {}
   absl::Status CheckSequence(std::int64_t sequence);
   absl::Status Start(const Observation& observation);
   absl::Status StartAt(const LocalizationPrior& prior);
+  // Goes on without the journeys that were deleted.
+  absl::Status LeaveDeleted();
 
   JourneyCatalog* const catalog_;
   const HomingQuery query_;
   const JourneyName pattern_;
   const DecodeLimits limits_;
   LiveJourneys journeys_;
+  LocalizerOptions options_;
   std::optional<Localizer> localizer_;
+  // Where the localiser starts.
+  std::optional<LocalizationPrior> prior_;
+  // As in the last answer.
+  Position position_;
   std::optional<std::int64_t> due_;
   bool started_ = false;
 };

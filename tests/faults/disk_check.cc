@@ -25,6 +25,8 @@ struct Trouble {
   std::function<void()> end;
   // The error of a client that does not wait.
   absl::StatusCode code = absl::StatusCode::kUnavailable;
+  // A journey can be deleted meanwhile.
+  bool deletes = false;
 };
 
 // A server with recording robots, and the checks before, during and after a fault.
@@ -51,7 +53,8 @@ class Trial {
     calm_ = robot_;
     calm_.robot = kCalmRobot;
     calm_.pace = std::chrono::milliseconds(0);
-    return RecordOne(calm_, kJourney, &ledger_).ok();
+    Ledger spare;
+    return RecordOne(calm_, kSpare, &spare).ok() && RecordOne(calm_, kJourney, &ledger_).ok();
   }
 
   void Run(const Trouble& trouble) {
@@ -88,6 +91,7 @@ class Trial {
  private:
   static constexpr char kJourney[] = "robots/1000/journeys/0";
   static constexpr char kHasty[] = "robots/1001/journeys/0";
+  static constexpr char kSpare[] = "robots/1002/journeys/0";
 
   void CheckInTrouble(const Trouble& trouble) {
     figures_->Holds(trouble.name + "_not_serving", AwaitHealth(server_.address(), false));
@@ -101,6 +105,9 @@ class Trial {
     const auto matched = Localize();
     figures_->AtLeast(trouble.name + "_localises", matched.value_or(0), 0.5);
     if (!matched.ok()) std::cerr << matched.status() << '\n';
+    if (trouble.deletes) {
+      figures_->Holds(trouble.name + "_deletes", DeleteOne(calm_, kSpare).ok());
+    }
   }
 
   const std::string control_;
@@ -138,6 +145,7 @@ void CheckFullDisk(const Programs& programs, const std::string& folder, Figures*
     const std::string ballast = folder + "/ballast";
     full.begin = [ballast] { Fill(ballast); };
     full.end = [ballast] { std::filesystem::remove(ballast); };
+    full.deletes = true;
   } else {
     WriteFiles(control, {});
   }

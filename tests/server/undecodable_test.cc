@@ -88,5 +88,17 @@ TEST_F(UndecodableTest, AnEmptyStreamIsNoError) {
   EXPECT_THAT(Send(kRecord, {}).status, IsGrpcOk());
 }
 
+TEST_F(UndecodableTest, PackedMessagesAreRefused) {
+  for (const auto algorithm : {GRPC_COMPRESS_GZIP, GRPC_COMPRESS_DEFLATE}) {
+    grpc::ClientContext context;
+    context.set_compression_algorithm(algorithm);
+    v1::GetJourneyRequest request;
+    request.set_name(std::string(100'000, 'a'));
+    v1::Journey journey;
+    EXPECT_THAT(journeys_->GetJourney(&context, request, &journey),
+                GrpcStatusIs(grpc::StatusCode::UNIMPLEMENTED, HasSubstr("disabled")));
+  }
+}
+
 }  // namespace
 }  // namespace homing::server

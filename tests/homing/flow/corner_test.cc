@@ -62,5 +62,31 @@ TEST(DetectCornersTest, EachIsTheStrongestNearIt) {
   }
 }
 
+TEST(DetectCornersTest, OfTooManyTheStrongestAreLeft) {
+  FlowOptions options;
+  options.cell_px = 4;
+  options.min_eigenvalue = 1e-6;
+  cv::Mat image(600, 1600, CV_32FC1);
+  cv::RNG(5).fill(image, cv::RNG::NORMAL, 0, 1);
+  const auto all = DetectCorners(image, options);
+  options.window_px = 63;
+  const std::size_t most = kMostWindowPixels / (63 * 63);
+  ASSERT_GT(all.size(), 2 * most);
+  const auto left = DetectCorners(image, options);
+  EXPECT_EQ(left.size(), most);
+  cv::Mat strength;
+  CornerStrength(image, &strength);
+  float weakest = strength.at<float>(cv::Point(left.front()));
+  for (const cv::Point2f& corner : left) {
+    weakest = std::min(weakest, strength.at<float>(cv::Point(corner)));
+  }
+  std::vector<cv::Point2f> stronger;
+  for (const cv::Point2f& corner : all) {
+    if (strength.at<float>(cv::Point(corner)) >= weakest) stronger.push_back(corner);
+  }
+  EXPECT_EQ(left, stronger);
+  EXPECT_EQ(DetectCorners(cv::Mat::ones(600, 1600, CV_32FC1), options).size(), 0U);
+}
+
 }  // namespace
 }  // namespace homing

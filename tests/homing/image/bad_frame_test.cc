@@ -160,5 +160,74 @@ TEST(BadFrameTest, LimitsAreTheCallers) {
   EXPECT_THAT(DecodeGray({kPng, 0, 0, bytes}, limits), IsOk());
 }
 
+class CancelledAt : public Cancellation {
+ public:
+  explicit CancelledAt(int at) : at_(at) {}
+  bool IsCancelled() const override { return ++asked_ >= at_; }
+
+ private:
+  const int at_;
+  mutable int asked_ = 0;
+};
+
+TEST(DecodeGrayTest, NobodyWaitsForTheRestOfAnImage) {
+  for (const FrameEncoding encoding : {kJpeg, kPng}) {
+    const std::string bytes = encoding == kJpeg ? Jpeg() : Png();
+    // Before it, and in the middle of a JPEG, which may have many scans.
+    for (const int at : {1, encoding == kJpeg ? 20 : 1}) {
+      const CancelledAt cancelled(at);
+      DecodeLimits limits;
+      limits.cancellation = &cancelled;
+      EXPECT_THAT(DecodeGray({encoding, 0, 0, bytes}, limits),
+                  StatusIs(absl::StatusCode::kCancelled, HasSubstr("does not wait")));
+    }
+  }
+}
+
+std::string Segment(int marker, const std::string& content) {
+  const std::size_t size = content.size() + 2;
+  return std::string{'\xff', static_cast<char>(marker), static_cast<char>(size >> 8),
+                     static_cast<char>(size & 0xff)} +
+         content;
+}
+
+// A grey progressive image of `scans` scans, each of a few bytes: one code says that thousands of
+// blocks are empty.
+std::string JpegOfScans(int width, int height, int scans) {
+  const auto two = [](int value) {
+    return std::string{static_cast<char>(value >> 8), static_cast<char>(value & 0xff)};
+  };
+  // Codes of two bits: 00, and 01 for the second.
+  const auto codes = [](char table, const std::string& symbols) {
+    std::string counts(16, '\0');
+    counts[1] = static_cast<char>(symbols.size());
+    return Segment(0xc4, table + counts + symbols);
+  };
+  const auto scan = [](int first, int last) {
+    return Segment(0xda, {1, 1, 0, static_cast<char>(first), static_cast<char>(last), 0});
+  };
+  std::string jpeg = "\xff\xd8" + Segment(0xdb, std::string(1, '\0') + std::string(64, '\1'));
+  jpeg += Segment(0xc2, '\x08' + two(height) + two(width) + std::string{1, 1, 0x11, 0});
+  jpeg += codes('\x00', std::string(1, '\0')) + codes('\x10', "\xe0");
+  const int blocks = (width / 8) * (height / 8);
+  jpeg += scan(0, 0) + std::string(static_cast<std::size_t>((blocks + 3) / 4), '\0');
+  // Runs of 2^14 blocks, as 00 and 14 bits of 0.
+  const std::string empty(static_cast<std::size_t>(2 * ((blocks + 16383) / 16384)), '\0');
+  for (int coefficient = 1; coefficient < scans; ++coefficient) {
+    jpeg += scan(coefficient, coefficient) + empty;
+  }
+  return jpeg + "\xff\xd9";
+}
+
+TEST(DecodeGrayTest, ALargeImageOfManyScansIsRefusedBeforeItTakesSeconds) {
+  const std::string usual = JpegOfScans(4096, 4096, 20);
+  EXPECT_THAT(DecodeGray({kJpeg, 0, 0, usual}), IsOk());
+  const std::string small = JpegOfScans(256, 64, 64);
+  EXPECT_THAT(DecodeGray({kJpeg, 0, 0, small}), IsOk());
+  const std::string bomb = JpegOfScans(4096, 4096, 64);
+  EXPECT_THAT(DecodeGray({kJpeg, 0, 0, bomb}),
+              StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("more than 32 scans")));
+}
+
 }  // namespace
 }  // namespace homing

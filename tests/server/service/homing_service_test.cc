@@ -1,4 +1,6 @@
 // Queries: wildcards, changed sides, wrong questions, one-shot matching.
+#include <set>
+
 #include "homing/flow/observation.h"
 #include "homing/image/frame.h"
 #include "tests/server/server_fixture.h"
@@ -12,6 +14,21 @@ using ::testing::HasSubstr;
 class HomingServiceTest : public ServerTest {
  protected:
   void SetUp() override { ASSERT_THAT(Create(), IsGrpcOk()); }
+  // Numbered from 0.
+  void RecordPlaces(int first, int last, const std::string& name) {
+    Recording recording(journeys_.get(), name);
+    for (int place = first; place < last; ++place) {
+      recording.Record(test::FlowAt(place - first, place));
+    }
+    EXPECT_THAT(recording.Close(), IsGrpcOk());
+  }
+  grpc::Status Delete(const std::string& name) {
+    grpc::ClientContext context;
+    v1::DeleteJourneyRequest request;
+    request.set_name(name);
+    v1::DeleteJourneyResponse response;
+    return journeys_->DeleteJourney(&context, request, &response);
+  }
 };
 
 TEST_F(HomingServiceTest, AWildcardSkipsJourneysOfAnotherCamera) {
@@ -38,6 +55,58 @@ TEST_F(HomingServiceTest, AWildcardSkipsJourneysOfAnotherCamera) {
   Localizing nothing(homing_.get(), LocalizeOn("robots/nobody/journeys/-"));
   EXPECT_THAT(nothing.AwaitEnd(),
               GrpcStatusIs(grpc::StatusCode::NOT_FOUND, HasSubstr("robots/nobody")));
+}
+
+std::set<std::string> JourneysIn(const v1::LocalizeResponse& answer) {
+  std::set<std::string> journeys;
+  if (!answer.journey().empty()) journeys.insert(answer.journey());
+  for (const v1::Match& match : answer.matches()) journeys.insert(match.journey());
+  return journeys;
+}
+
+TEST_F(HomingServiceTest, ADeletedJourneyLeavesTheStreamsOfAWildcard) {
+  const std::string other = "robots/r/journeys/other";
+  ASSERT_THAT(Create("other"), IsGrpcOk());
+  RecordFlow(0, 60);
+  RecordPlaces(20, 60, other);
+  Localizing localizing(homing_.get(), LocalizeOn("robots/-/journeys/-"));
+  std::set<std::string> seen;
+  int place = 20;
+  v1::LocalizeResponse answer;
+  for (int i = 0; i < 15; ++i) {
+    answer = localizing.Localize(test::FlowAt(i, place++));
+    seen.merge(JourneysIn(answer));
+  }
+  EXPECT_EQ(seen, (std::set<std::string>{kJourney, other}));
+  ASSERT_THAT(Delete(answer.journey()), IsGrpcOk());
+  const std::string left = answer.journey() == kJourney ? other : kJourney;
+  // One that is made meanwhile is not covered.
+  ASSERT_THAT(Create("late"), IsGrpcOk());
+  RecordPlaces(20, 60, "robots/r/journeys/late");
+  for (int i = 15; i < 35; ++i) {
+    answer = localizing.Localize(test::FlowAt(i, place++));
+    EXPECT_EQ(JourneysIn(answer), (std::set<std::string>{left})) << i;
+  }
+  EXPECT_EQ(answer.outcome(), v1::OUTCOME_MATCH);
+  ASSERT_THAT(Delete(left), IsGrpcOk());
+  ASSERT_TRUE(localizing.Send(test::FlowAt(35, place)));
+  EXPECT_THAT(localizing.AwaitEnd(),
+              GrpcStatusIs(grpc::StatusCode::NOT_FOUND, HasSubstr("was deleted")));
+}
+
+TEST_F(HomingServiceTest, TheBeliefGoesOnWhenAnotherJourneyIsDeleted) {
+  ASSERT_THAT(Create("other"), IsGrpcOk());
+  RecordFlow(0, 60);
+  RecordPlaces(200, 260, "robots/r/journeys/other");
+  Localizing localizing(homing_.get(), LocalizeOn("robots/-/journeys/-"));
+  v1::LocalizeResponse answer;
+  for (int i = 0; i < 35; ++i) answer = localizing.Localize(test::FlowAt(i, 10 + i));
+  ASSERT_NE(answer.outcome(), v1::OUTCOME_UNKNOWN_PLACE);
+  ASSERT_THAT(Delete("robots/r/journeys/other"), IsGrpcOk());
+  answer = localizing.Localize(test::FlowAt(35, 45));
+  EXPECT_NE(answer.outcome(), v1::OUTCOME_UNKNOWN_PLACE);
+  EXPECT_EQ(answer.journey(), kJourney);
+  EXPECT_NEAR(static_cast<double>(answer.step()), 45, 3);
 }
 
 TEST_F(HomingServiceTest, OnTheWayBackTheCamerasHaveChangedSides) {

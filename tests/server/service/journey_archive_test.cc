@@ -189,6 +189,10 @@ TEST(JourneyArchive, RefusesSizesThatDoNotAgree) {
                 "landmark_sides has");
 }
 
+TEST(JourneyArchive, RefusesMillionsOfEmptySteps) {
+  ExpectRefused(Forge([](v1::JourneyMap& m) { m.set_step_count(2'000'001); }), "must be 0 to");
+}
+
 TEST(JourneyArchive, RefusesContentThatNoMapHas) {
   ExpectRefused(Forge([](v1::JourneyMap& m) { m.set_landmarks(0, 1000); }), "landmarks[0] is 1000");
   ExpectRefused(Forge([](v1::JourneyMap& m) { m.set_landmarks(0, -1); }), "landmarks[0] is -1");

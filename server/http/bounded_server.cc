@@ -1,0 +1,115 @@
+#include "server/http/bounded_server.h"
+
+#include <openssl/err.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <cstdint>
+#include <cstdlib>
+#include <limits>
+#include <utility>
+
+#include "server/http/timed_stream.h"
+
+namespace homing::server {
+namespace {
+
+constexpr std::chrono::seconds kIdleTime{2};
+constexpr std::chrono::seconds kRequestTime{5};
+constexpr std::size_t kMaxHeaders = 64 << 10;
+// Of one connection.
+constexpr std::size_t kMaxRequests = 1000;
+
+// Of the body that a request says to have; a chunked one has at least a byte.
+std::uint64_t BodyBytes(const httplib::Request& request) {
+  if (request.has_header("Transfer-Encoding")) {
+    // A proxy may see another end of it.
+    return request.has_header("Content-Length") ? std::numeric_limits<std::uint32_t>::max() : 1;
+  }
+  return std::strtoull(request.get_header_value("Content-Length").c_str(), nullptr, 10);
+}
+
+}  // namespace
+
+BoundedServer::BoundedServer() {
+  new_task_queue = [] { return new httplib::ThreadPool(kThreads); };
+  set_tcp_nodelay(true);
+  // The library's own options let a second server share the port silently.
+  set_socket_options([](socket_t socket) {
+    const int yes = 1;
+    ::setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof(yes));
+  });
+  set_payload_max_length(kMaxBody);
+  // What its answers say.
+  set_keep_alive_timeout(kIdleTime.count());
+  set_keep_alive_max_count(kMaxRequests);
+}
+
+absl::Status BoundedServer::UseCertificate(const std::string& certificate, const std::string& key) {
+  std::shared_ptr<SSL_CTX> context(SSL_CTX_new(TLS_server_method()), ContextFree());
+  SSL_CTX_set_min_proto_version(context.get(), TLS1_2_VERSION);
+  SSL_CTX_set_options(context.get(), SSL_OP_NO_RENEGOTIATION | SSL_OP_NO_COMPRESSION);
+  if (SSL_CTX_use_certificate_chain_file(context.get(), certificate.c_str()) != 1 ||
+      SSL_CTX_use_PrivateKey_file(context.get(), key.c_str(), SSL_FILETYPE_PEM) != 1 ||
+      SSL_CTX_check_private_key(context.get()) != 1) {
+    ERR_clear_error();
+    return absl::InvalidArgumentError("http: the TLS files cannot be used");
+  }
+  const MutexLock lock(mutex_);
+  context_ = std::move(context);
+  return absl::OkStatus();
+}
+
+bool BoundedServer::Enter(const std::string& address) {
+  const MutexLock lock(mutex_);
+  std::size_t& open = connections_[address];
+  if (open >= kMostOfOneAddress) return false;
+  ++open;
+  return true;
+}
+
+void BoundedServer::Leave(const std::string& address) {
+  const MutexLock lock(mutex_);
+  if (--connections_[address] == 0) connections_.erase(address);
+}
+
+bool BoundedServer::process_and_close_socket(socket_t socket) {
+  std::string address;
+  int port = 0;
+  TimedStream(socket, nullptr, {}).get_remote_ip_and_port(address, port);
+  bool served = false;
+  if (Enter(address)) {
+    served = Serve(socket);
+    Leave(address);
+  }
+  ::shutdown(socket, SHUT_RDWR);
+  ::close(socket);
+  return served;
+}
+
+bool BoundedServer::Serve(socket_t socket) {
+  std::shared_ptr<SSL_CTX> context;
+  {
+    const MutexLock lock(mutex_);
+    context = context_;
+  }
+  TimedStream stream(socket, context.get(), {kMaxHeaders + kMaxBody, kRequestTime, kIdleTime});
+  if (!stream.Begin()) return false;
+  bool served = true;
+  bool closed = false;
+  for (std::size_t left = kMaxRequests; left > 0 && served && !closed; --left) {
+    if (svr_sock_ == INVALID_SOCKET || !stream.AwaitRequest()) break;
+    // Also that of a request that could not be understood.
+    std::uint64_t body_end = std::numeric_limits<std::uint64_t>::max();
+    served = process_request(stream, left == 1, closed, [&](httplib::Request& request) {
+      // The library would unpack it without a limit.
+      request.headers.erase("Content-Encoding");
+      body_end = stream.consumed() + BodyBytes(request);
+    });
+    // The body of a request that was refused must not be taken for the next request.
+    if (stream.consumed() < body_end) break;
+  }
+  return served;
+}
+
+}  // namespace homing::server

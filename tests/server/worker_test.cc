@@ -1,0 +1,97 @@
+// Long work on a server with one worker: others do not wait for it.
+#include <chrono>
+#include <functional>
+#include <future>
+#include <thread>
+
+#include "homing/image/frame.h"
+#include "proto/wire/observation_conversion.h"
+#include "tests/server/server_fixture.h"
+#include "tests/support/status_matchers.h"
+
+namespace homing::server {
+namespace {
+
+using ::testing::HasSubstr;
+
+class WorkerTest : public ServerTest {
+ protected:
+  WorkerTest() { options_.workers = 1; }
+  void SetUp() override {
+    StartServer();
+    ASSERT_THAT(Create(), IsGrpcOk());
+  }
+  static double SecondsOf(const std::function<void()>& call) {
+    const auto begin = std::chrono::steady_clock::now();
+    call();
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  }
+};
+
+// Of noise, in which nothing is found: the most work that two frames can make.
+std::string NoiseOf(std::uint32_t seed, int width, int height) {
+  std::string bytes(static_cast<std::size_t>(width) * height, '\0');
+  for (std::size_t i = 0; i < bytes.size(); ++i) {
+    bytes[i] = static_cast<char>(255 * test::Noise(seed, static_cast<std::uint32_t>(i)));
+  }
+  return bytes;
+}
+
+TEST_F(WorkerTest, AFramePairOfAClientThatDoesNotWaitFreesItsWorker) {
+  constexpr int kLong = 1024;
+  const std::string first = NoiseOf(1, kLong, kLong);
+  const std::string second = NoiseOf(2, kLong, kLong);
+  v1::CreateJourneyRequest journey;
+  journey.set_parent("robots/r");
+  journey.set_journey_id("costly");
+  v1::FlowSettings* flow = journey.mutable_journey()->mutable_settings()->mutable_flow();
+  flow->set_working_width_px(2 * kLong);
+  flow->set_window_px(63);
+  flow->set_cell_px(16);
+  flow->set_min_eigenvalue(1e-6);
+  flow->set_smoothing_sigma_px(1);
+  flow->set_normalization_window_px(45);
+  flow->set_normalization_floor(1);
+  flow->set_pyramid_levels(6);
+  flow->set_max_forward_backward_px(5);
+  v1::Journey made;
+  grpc::ClientContext creating;
+  ASSERT_THAT(journeys_->CreateJourney(&creating, journey, &made), IsGrpcOk());
+  v1::MatchLandmarksRequest request;
+  request.set_journey(made.name());
+  request.set_travel(v1::TRAVEL_SAME);
+  v1::FramePair* pair = request.mutable_left()->mutable_frames();
+  *pair->mutable_first() = wire::ToProto(test::GrayFrame(first, kLong, kLong));
+  *pair->mutable_second() = wire::ToProto(test::GrayFrame(second, kLong, kLong));
+  const auto match = [&](std::chrono::milliseconds timeout) {
+    grpc::ClientContext context;
+    context.set_deadline(std::chrono::system_clock::now() + timeout);
+    v1::MatchLandmarksResponse response;
+    return homing_->MatchLandmarks(&context, request, &response);
+  };
+  const double whole = SecondsOf([&] { EXPECT_THAT(match(std::chrono::minutes(5)), IsGrpcOk()); });
+  const auto part = std::chrono::milliseconds(static_cast<int>(250 * whole));
+  EXPECT_THAT(match(part), GrpcStatusIs(grpc::StatusCode::DEADLINE_EXCEEDED, HasSubstr("")));
+  // The one worker is free.
+  EXPECT_LT(SecondsOf([&] { Get(); }), 0.4 * whole);
+}
+
+TEST_F(WorkerTest, TheAnalysisOfARouteThatRepeatsItselfHoldsUpNobody) {
+  Recording recording(journeys_.get(), kJourney);
+  for (int step = 0; step < 300; ++step) recording.Send(test::FlowAt(step, step % 40));
+  ASSERT_THAT(recording.Close(), IsGrpcOk());
+  const auto analyze = [&] {
+    grpc::ClientContext context;
+    v1::AnalyzeAliasingRequest request;
+    request.set_name(kJourney);
+    v1::AnalyzeAliasingResponse report;
+    EXPECT_THAT(journeys_->AnalyzeAliasing(&context, request, &report), IsGrpcOk());
+  };
+  const double whole = SecondsOf(analyze);
+  const auto analysis = std::async(std::launch::async, analyze);
+  std::this_thread::sleep_for(std::chrono::duration<double>(0.1 * whole));
+  EXPECT_LT(SecondsOf([&] { Get(); }), 0.3 * whole);
+}
+
+}  // namespace
+}  // namespace homing::server
