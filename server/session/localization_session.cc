@@ -136,7 +136,7 @@ absl::StatusOr<Localization> LocalizationSession::Localize(const Observation& ob
   absl::StatusOr<Localization> result = localizer_->Localize(observation, RefsOf(journeys_));
   if (!result.ok()) return Within("observation", result.status());
   due_ = observation.sequence + 1;
-  position_ = result.position;
+  position_ = result->position;
   return result;
 }
 
