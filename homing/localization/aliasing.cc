@@ -126,7 +126,8 @@ std::optional<std::int64_t> Quantile(const std::vector<std::int64_t>& steps, dou
 
 }  // namespace
 
-Aliasing AnalyzeAliasing(RouteProfiles profiles, std::int64_t tolerance_steps) {
+Aliasing AnalyzeAliasing(RouteProfiles profiles, std::int64_t tolerance_steps,
+                         const Cancellation* cancellation) {
   const auto count = std::max(std::ssize(profiles[0]), std::ssize(profiles[1]));
   Aliasing aliasing;
   if (count == 0) return aliasing;
@@ -137,12 +138,13 @@ Aliasing AnalyzeAliasing(RouteProfiles profiles, std::int64_t tolerance_steps) {
   std::vector<std::int64_t> steps;
   std::vector<Twins> twins;
   std::int64_t indistinct = 0;
-  for (std::int64_t start = 0; start < count; start += stride) {
+  const auto is_awaited = [cancellation] { return CheckAwaited(cancellation).ok(); };
+  for (std::int64_t start = 0; start < count && is_awaited(); start += stride) {
     Drive drive(profiles, count, start);
     // One that runs into the end of the route has seen all there is.
     const std::int64_t most = std::min(kStepsTried, count - start);
     std::int64_t needed = kStepsTried + 1;
-    for (std::int64_t seen = 0; seen < most && needed > kStepsTried; ++seen) {
+    for (std::int64_t seen = 0; seen < most && needed > kStepsTried && is_awaited(); ++seen) {
       drive.See(seen);
       if (drive.Certainty(tolerance_steps) >= kTold) needed = seen + 1;
       if (seen + 1 == kTwinSteps || (needed <= kStepsTried && seen + 1 < kTwinSteps)) {

@@ -8,6 +8,7 @@
 #include <optional>
 #include <vector>
 
+#include "homing/base/cancellation.h"
 #include "homing/landmark/flow_profile.h"
 
 namespace homing {
@@ -36,8 +37,10 @@ struct Aliasing {
 // A robot drives the route again, either way, with the speed of the outbound trip, and sees each
 // step as unlike as its neighbour is. Steps nearer than `tolerance_steps` are one place. Long
 // routes are sampled: the cost stays below that of some 200 steps against all, at 10,000 steps
-// about a second.
-Aliasing AnalyzeAliasing(RouteProfiles profiles, std::int64_t tolerance_steps);
+// about a second, or half a minute if the route repeats itself. Nobody waits any more: what was
+// found so far.
+Aliasing AnalyzeAliasing(RouteProfiles profiles, std::int64_t tolerance_steps,
+                         const Cancellation* cancellation = nullptr);
 
 }  // namespace homing
 

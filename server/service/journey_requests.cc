@@ -147,6 +147,7 @@ absl::Status ListLandmarkPage(const v1::ListLandmarksRequest& request, JourneyCa
 }
 
 absl::Status DescribeAliasing(const v1::AnalyzeAliasingRequest& request, JourneyCatalog* catalog,
+                              const Cancellation* cancellation,
                               v1::AnalyzeAliasingResponse* response) {
   HOMING_ASSIGN_OR_RETURN(const JourneyName name, ParseJourneyName(request.name(), "name"));
   PositionOptions options;
@@ -167,8 +168,9 @@ absl::Status DescribeAliasing(const v1::AnalyzeAliasingRequest& request, Journey
     return absl::FailedPreconditionError(absl::StrCat(
         name.ToString(), " has no flow profiles; record it anew to see how well it tells places"));
   }
-  *response = EncodeAliasing(AnalyzeAliasing(std::move(profiles), options.tolerance_steps));
-  return absl::OkStatus();
+  *response =
+      EncodeAliasing(AnalyzeAliasing(std::move(profiles), options.tolerance_steps, cancellation));
+  return CheckAwaited(cancellation);
 }
 
 }  // namespace homing::server

@@ -28,6 +28,7 @@ absl::Status ListJourneyPage(const v1::ListJourneysRequest& request, JourneyCata
 
 // INVALID_ARGUMENT, NOT_FOUND.
 absl::Status DescribeAliasing(const v1::AnalyzeAliasingRequest& request, JourneyCatalog* catalog,
+                              const Cancellation* cancellation,
                               v1::AnalyzeAliasingResponse* response);
 
 absl::Status ListLandmarkPage(const v1::ListLandmarksRequest& request, JourneyCatalog* catalog,

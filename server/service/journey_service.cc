@@ -105,8 +105,9 @@ grpc::ServerUnaryReactor* JourneyServiceHandler::AnalyzeAliasing(
     v1::AnalyzeAliasingResponse* response) {
   return ServeUnary(
       core_, context, Rpc::kAnalyzeAliasing, request->name(),
-      [core = core_, request, response](const JourneyFilter& /*all*/) -> absl::Status {
-        return DescribeAliasing(*request, &core->catalog, response);
+      [core = core_, context, request, response](const JourneyFilter& /*all*/) -> absl::Status {
+        const UnaryCancellation cancellation(context);
+        return DescribeAliasing(*request, &core->catalog, &cancellation, response);
       },
       &core_->long_work);
 }

@@ -93,5 +93,25 @@ TEST_F(WorkerTest, TheAnalysisOfARouteThatRepeatsItselfHoldsUpNobody) {
   EXPECT_LT(SecondsOf([&] { Get(); }), 0.3 * whole);
 }
 
+TEST_F(WorkerTest, AnAnalysisThatNobodyWaitsForEnds) {
+  Recording recording(journeys_.get(), kJourney);
+  for (int step = 0; step < 300; ++step) recording.Send(test::FlowAt(step, step % 40));
+  ASSERT_THAT(recording.Close(), IsGrpcOk());
+  const auto analyze = [&](std::chrono::duration<double> most) {
+    grpc::ClientContext context;
+    context.set_deadline(std::chrono::system_clock::now() +
+                         std::chrono::duration_cast<std::chrono::milliseconds>(most));
+    v1::AnalyzeAliasingRequest request;
+    request.set_name(kJourney);
+    v1::AnalyzeAliasingResponse report;
+    return journeys_->AnalyzeAliasing(&context, request, &report);
+  };
+  const double whole =
+      SecondsOf([&] { EXPECT_THAT(analyze(std::chrono::minutes(5)), IsGrpcOk()); });
+  EXPECT_THAT(analyze(std::chrono::duration<double>(0.1 * whole)),
+              GrpcStatusIs(grpc::StatusCode::DEADLINE_EXCEEDED, HasSubstr("")));
+  EXPECT_LT(SecondsOf([&] { StartServer(); }), 0.5 * whole);
+}
+
 }  // namespace
 }  // namespace homing::server
