@@ -24,8 +24,8 @@ double EvidenceWeight(double moved, double correlation_steps);
 // the robot may be. Not thread-safe.
 class DistanceMoved {
  public:
-  // Steps of this observation, -8 to 8. Negative: the other way past what is seen. `masses`: by journey, where the robot may be. None
-  // without a reading.
+  // Steps of this observation, -8 to 8. Negative: the other way past what is seen. `masses`: by
+  // journey, where the robot may be. None without a reading.
   std::optional<double> Update(std::span<const RouteScale> routes, std::span<const StepMass> masses,
                                const SeenProfiles& profiles);
 
