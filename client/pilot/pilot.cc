@@ -20,9 +20,10 @@ constexpr double kWatch = 0.25;
 constexpr double kLeastSpeedMps = 0.15;
 // Slows down towards home: m/s for each metre left.
 constexpr double kSpeedPerM = 0.5;
-// The last of the way is driven as commanded, m: an answer is no better than its tolerance, and the
-// map ends.
+// The last of the way, m, is driven as commanded: an answer is no better than its tolerance, and
+// the map ends. An answer then corrects a small part of the difference.
 constexpr double kCloseM = 1.5;
+constexpr double kCloseGain = 0.03;
 // A search sweeps so far back, and twice as far ahead, then further and further, m. It swings the
 // heading by so much, rad, over so many metres.
 constexpr double kSweepM = 1.5;
@@ -115,7 +116,7 @@ void Pilot::TakePlace(const PilotAnswer& answer) {
   if (!answer.progress_home || !is_sure_) return;
   const double told_m = (1 - *answer.progress_home) * options_.route_m;
   const bool is_close = told_m < kCloseM && std::abs(told_m - expected.remaining_m) < kCloseM;
-  if (!is_close) known_.remaining_m = told_m;
+  known_.remaining_m += (is_close ? kCloseGain : 1) * (told_m - expected.remaining_m);
 }
 
 // Where the offsets run away from what the heading makes them, the heading is wrong: turns were

@@ -153,7 +153,7 @@ TEST_F(PilotTest, WithoutATurnTheHeadingFollowsTheCommands) {
 TEST_F(PilotTest, TheLastMetreIsDrivenAsCommanded) {
   Pilot pilot = OnItsWay();
   PilotAnswer near = Sure();
-  near.progress_home = 1 - 1.2 / 60;
+  near.progress_home = 1 - 0.5 / 60;
   for (int i = 0; i < 200 && pilot.state() != Pilot::State::kHome; ++i) Step(pilot, near);
   EXPECT_EQ(pilot.state(), Pilot::State::kHome);
 }
