@@ -71,7 +71,8 @@ std::vector<cv::Point2f> DetectCorners(const cv::Mat& normalized, const FlowOpti
       }
     }
   }
-  const auto window = static_cast<std::size_t>(options.window_px) * options.window_px;
+  const auto side = static_cast<std::size_t>(options.window_px);
+  const std::size_t window = side * side;
   KeepStrongest(buffers->strength, kMostWindowPixels / window, &corners);
   return corners;
 }
