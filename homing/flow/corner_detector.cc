@@ -71,8 +71,8 @@ std::vector<cv::Point2f> DetectCorners(const cv::Mat& normalized, const FlowOpti
       }
     }
   }
-  const auto side = static_cast<std::size_t>(options.window_px);
-  const std::size_t window = side * side;
+  const auto window_px = static_cast<std::size_t>(options.window_px);
+  const std::size_t window = window_px * window_px;
   KeepStrongest(buffers->strength, kMostWindowPixels / window, &corners);
   return corners;
 }
