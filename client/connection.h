@@ -31,7 +31,7 @@ struct ConnectionOptions {
   std::string token_file;
   bool insecure = false;
   // W3C traceparent of whoever started this program; otherwise a new trace begins. Each call names
-  // the trace, and a span of its own.
+  // the trace, and its own span.
   std::string traceparent;
   // Longest time for the first connection.
   std::chrono::milliseconds connect_timeout{5000};

@@ -20,7 +20,7 @@ struct PilotAnswer {
   Outcome outcome = Outcome::kAmbiguous;
   // Turned on the spot.
   bool is_turning = false;
-  // Nothing has moved enough since the reference frame: a later answer tells what has turned.
+  // Nothing has moved enough since the reference frame: a later answer reports the turn.
   bool is_standing = false;
   double probability = 0;
   // Way home, 0 at the far end, 1 at home.
@@ -140,7 +140,7 @@ class Pilot {
   double searched_m_ = 0;
   // Driven while sure since the last search began, m.
   double sure_m_ = 0;
-  // Of this search, the first one.
+  // First sweep of this search, m.
   double sweep_m_ = 0;
   // Metres left of the path as the heading has them, held near what the answers say.
   double watched_m_ = 0;

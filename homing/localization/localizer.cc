@@ -123,24 +123,25 @@ ObservedFlow Localizer::FollowPath(std::span<const JourneyRef> journeys, const O
 void Localizer::TellPose(std::span<const JourneyRef> journeys, const ObservedFlow& flow,
                          Localization& result) {
   result.position.path_offset.reset();
+  const auto tell_heading = [&] {
+    result.turn = path_.pose().heading - told_heading_;
+    told_heading_ = path_.pose().heading;
+  };
   if (result.motion == Motion::kTurning) {
     result.turn = TurnOnSpot(flow, options_.cameras);
     if (result.turn) path_.Turn(*result.turn);
     // Where a robot headed that has not driven yet is not known: its turns add up behind.
     told_heading_ = path_.is_started() ? told_heading_ + result.turn.value_or(0) : 0;
   } else if (!result.position.step) {
-    result.turn = path_.TurnAlone(flow);
+    if (path_.TurnAlone(flow)) tell_heading();
     path_.Forget();
-    told_heading_ += result.turn.value_or(0);
   } else if (path_.has_motion()) {
     const JourneyMap& map = *journeys[static_cast<std::size_t>(result.position.journey)].map;
     path_.Correct(map, *result.position.step, flow);
-    result.turn = path_.pose().heading - told_heading_;
-    told_heading_ = path_.pose().heading;
+    tell_heading();
     if (path_.is_started()) result.position.path_offset = path_.pose().offset;
   } else if (path_.TurnAlone(flow)) {
-    result.turn = path_.pose().heading - told_heading_;
-    told_heading_ = path_.pose().heading;
+    tell_heading();
   }
   if (result.turn && !options_.cameras[0].intrinsics) {
     *result.turn *= PathPoseFilter::UsualFocal(options_.cameras[0].width);

@@ -164,12 +164,12 @@ void PathPoseFilter::Forget() {
   covariance_ = 0;
 }
 
-std::optional<double> PathPoseFilter::TurnAlone(const ObservedFlow& flow) {
+bool PathPoseFilter::TurnAlone(const ObservedFlow& flow) {
   const VerticalTurn vertical = ReadVerticalTurn(flow, cameras_);
   heading_variance_ += std::min(vertical.variance, kUnseenTurn * kUnseenTurn);
-  if (!(vertical.variance < kUnseenTurn * kUnseenTurn)) return std::nullopt;
+  if (!(vertical.variance < kUnseenTurn * kUnseenTurn)) return false;
   pose_.heading = std::clamp(pose_.heading + vertical.turn, -kMostHeading, kMostHeading);
-  return vertical.turn;
+  return true;
 }
 
 // A turn to the left moves what is seen to higher x, in both cameras.

@@ -47,9 +47,9 @@ class PathPoseFilter {
   void Turn(double turned);
   // The robot is lost: what was believed says nothing any more.
   void Forget();
-  // One observation of motion that cannot be read against the map: how the robot has turned, rad to
-  // the left, if the vertical flow shows it.
-  std::optional<double> TurnAlone(const ObservedFlow& flow);
+  // One observation of motion that cannot be read against the map: the vertical flow turns the
+  // heading. False: it shows no turn.
+  bool TurnAlone(const ObservedFlow& flow);
   // The flow that a robot would have seen that heads along the path and does not turn.
   ObservedFlow Straighten(const ObservedFlow& flow) const;
   // What the images say, against the steps around `step`. `flow`: as Straighten was given it.

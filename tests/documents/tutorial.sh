@@ -1,8 +1,8 @@
 #!/bin/sh
 # Runs the commands of docs/tutorial.md as they are written there, in at most three minutes. Variables give the
-# server a port of its own, so that another one on this machine is left alone.
+# server its own port, so that another one on this machine is left alone.
 # usage: sh tests/documents/tutorial.sh [--built]
-#   --built: without the section "Build", in a folder of its own; the programs are in PATH.
+#   --built: without the section "Build", in a separate folder; the programs are in PATH.
 set -eu
 cd "$(dirname "$0")/../.."
 scratch=$(mktemp -d)

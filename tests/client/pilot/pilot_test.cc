@@ -142,7 +142,7 @@ TEST_F(PilotTest, WithoutATurnTheHeadingFollowsTheCommands) {
   left.turn.reset();
   for (int i = 0; i < 10; ++i) Step(pilot, left);
   EXPECT_LT(pilot.heading(), -0.1);
-  // Nothing has moved since the reference frame: what was turned is told later.
+  // Nothing has moved since the reference frame: a later answer reports the turn.
   Pilot standing = OnItsWay();
   left.is_standing = true;
   for (int i = 0; i < 10; ++i) Step(standing, left);
