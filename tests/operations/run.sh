@@ -61,8 +61,11 @@ prometheus --config.file="$scratch/prometheus.yml" --storage.tsdb.path="$scratch
   --web.listen-address="127.0.0.1:$port" >"$scratch/prometheus.log" 2>&1 &
 pids="$pids $!"
 
-# A rate needs a sample from before.
-sleep 3
+# A rate needs a sample from before, and Prometheus takes its time to begin.
+for _ in $(seq 600); do
+  ! curl -sf "http://127.0.0.1:$port/api/v1/query?query=homing_open_streams" | grep -q '"value"' || break
+  sleep 0.1
+done
 "$client/bench/homing-bench" --server "$address" --robots 20 --rate 5 --seconds 12 --localize >"$scratch/load.log" 2>&1 &
 load=$!
 pids="$pids $load"
