@@ -6,6 +6,7 @@
 
 #include "homing/base/range_check.h"
 #include "homing/base/status_macros.h"
+#include "homing/localization/direction_evidence.h"
 #include "homing/localization/speed_ratios.h"
 
 namespace homing {
@@ -139,14 +140,17 @@ std::vector<StepMass> PositionFilter::Masses() const {
 }
 
 void PositionFilter::Weigh(std::span<const JourneyRef> journeys, const SeenProfiles& profiles,
-                           const Factors& factors) {
+                           double weight, const Factors& factors) {
   double after = 0;
   for (std::size_t i = 0; i < beliefs_.size(); ++i) {
     const std::vector<std::int16_t> ratios =
         options_.paper_only
             ? std::vector<std::int16_t>(masses_[i].mass.size(), kNoRatio)
             : SpeedRatios(*journeys[i].map, profile_likelihood_.routes()[i], masses_[i], profiles);
-    masses_[i] = beliefs_[i].Weigh(factors(i), ratios, speeds_[i]);
+    const std::array<double, 2> directions =
+        options_.paper_only ? std::array<double, 2>{1, 1}
+                            : DirectionFactors(profile_likelihood_.routes()[i], profiles, weight);
+    masses_[i] = beliefs_[i].Weigh(factors(i), ratios, speeds_[i], directions);
     after += masses_[i].Sum() + beliefs_[i].MassBeyond();
   }
   Normalise(after);
@@ -213,7 +217,7 @@ void PositionFilter::CorrectByProfiles(std::span<const JourneyRef> journeys,
   profile_likelihood_.Compute(journeys, profiles, masses_, weight);
   const double fit = MeanFactor([this](std::size_t i) { return profile_likelihood_.of(i); });
   membership_.Fit(fit);
-  Weigh(journeys, profiles, [this](std::size_t i) { return profile_likelihood_.of(i); });
+  Weigh(journeys, profiles, weight, [this](std::size_t i) { return profile_likelihood_.of(i); });
   AddMembership(weight, SharedBy(journeys, moved), fit);
   profile_likelihood_.Learn();
   has_offset_ = true;
@@ -226,7 +230,7 @@ void PositionFilter::CorrectByLandmarks(std::span<const JourneyRef> journeys,
   likelihood_.Compute(journeys, seen);
   const auto factors = [this](std::size_t i) { return std::span<const float>(likelihood_.of(i)); };
   const double fit = MeanFactor(factors);
-  Weigh(journeys, {}, factors);
+  Weigh(journeys, {}, 1, factors);
   membership_.Fit(fit / likelihood_.OffRoute());
   membership_.Add(kLandmarkWeight * (std::log(fit) - std::log(likelihood_.OffRoute())));
 }

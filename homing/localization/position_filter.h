@@ -109,9 +109,10 @@ class PositionFilter {
   using Factors = std::function<std::span<const float>(std::size_t journey)>;
   // Mean over where the robot may be.
   double MeanFactor(const Factors& factors) const;
-  // Multiplies the steps of each journey's active window by its factors, and the speeds by what the
-  // odometer says.
-  void Weigh(std::span<const JourneyRef> journeys, const SeenProfiles& profiles,
+  // Multiplies the steps of each journey's active window by its factors, the speeds by what the
+  // odometer says, and the directions by what the sign of the flow says. `weight`: of the
+  // observation.
+  void Weigh(std::span<const JourneyRef> journeys, const SeenProfiles& profiles, double weight,
              const Factors& factors);
   // What this observation may say that the ones before have not: the steps that the robot has moved
   // over the correlation length of the map. (0, 1].

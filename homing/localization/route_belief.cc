@@ -197,10 +197,11 @@ void RouteBelief::Turn(double restart) {
 }
 
 StepMass RouteBelief::Weigh(std::span<const float> factors, std::span<const std::int16_t> ratios,
-                            const SpeedEvidence& speeds) {
+                            const SpeedEvidence& speeds, const std::array<double, 2>& directions) {
   StepMass left{first_, std::vector<float>(factors.size())};
-  const LaneFactors by{factors, ratios, static_cast<float>(scale_), kLeastMass};
   for (std::size_t lane = 0; lane < kLanes; ++lane) {
+    const double scale = scale_ * directions[lane / kSpeedCount];
+    const LaneFactors by{factors, ratios, static_cast<float>(scale), kLeastMass};
     WeighLane(by, speeds.of(lane % kSpeedCount), lanes_[lane], left.mass);
   }
   background_ *= scale_;

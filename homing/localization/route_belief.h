@@ -44,11 +44,12 @@ class RouteBelief {
   double Move(double change, double restart = 0);
   // A turn on the spot: hardly any motion.
   void Turn(double restart = 0);
-  // Multiplies each step of the active window by its factor, and each speed by what the odometer
-  // says. `ratios`: SpeedEvidence::IndexOf the reading now less the step's. REQUIRES: focus_size()
-  // factors and ratios. Returns the remaining mass.
+  // Multiplies each step of the active window by its factor, each direction by its factor, and each
+  // speed by what the odometer says. `ratios`: SpeedEvidence::IndexOf the reading now less the
+  // step's. `directions`: DirectionFactors. REQUIRES: focus_size() factors and ratios. Returns the
+  // remaining mass.
   StepMass Weigh(std::span<const float> factors, std::span<const std::int16_t> ratios,
-                 const SpeedEvidence& speeds);
+                 const SpeedEvidence& speeds, const std::array<double, 2>& directions);
   void Scale(double factor);
 
   // Holds only steps of at least `least` mass, and those between them, one by one.

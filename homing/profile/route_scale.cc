@@ -24,6 +24,8 @@ constexpr double kMuchGrown = 1.25;
 constexpr double kReadingSteps = 3;
 // Of the signs of two kinds of flow, one must be this much steadier.
 constexpr double kClearDirection = 0.2;
+// A sign that never changed over the map may still change now.
+constexpr double kSurestSign = 0.95;
 // Deviation of normal noise over the median of its absolute second difference.
 const double kDeviationOfRoughness = 1 / (0.6745 * std::sqrt(6.0));
 
@@ -206,6 +208,12 @@ CameraOdometer::CameraOdometer(std::span<const FlowProfile> profiles) {
 int CameraOdometer::Way(const OdometerReading& reading) const {
   return std::abs(across_) >= std::abs(along_) ? SignOf(reading.median_x) * (across_ < 0 ? -1 : 1)
                                                : SignOf(reading.expansion) * (along_ < 0 ? -1 : 1);
+}
+
+double CameraOdometer::OutwardLogOdds(const OdometerReading& reading) const {
+  const double steadiness = std::max(std::abs(across_), std::abs(along_));
+  const double right = std::min(kSurestSign, 0.5 * (1 + steadiness));
+  return Way(reading) * std::log(right / (1 - right));
 }
 
 std::int16_t CameraOdometer::Read(const OdometerReading& reading) const {

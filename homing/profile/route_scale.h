@@ -36,6 +36,9 @@ class CameraOdometer {
   // +1: the camera moves past what it sees as it did when the map was made; -1: the other way; 0:
   // not seen.
   int Way(const OdometerReading& reading) const;
+  // Logarithm of the odds that the robot drives away from home, by Way and by how steady the sign
+  // was over the map. 0: nothing is known.
+  double OutwardLogOdds(const OdometerReading& reading) const;
   CameraDirection direction() const { return direction_; }
 
  private:

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "homing/localization/direction_evidence.h"
 #include "homing/localization/distance_moved.h"
 #include "homing/localization/route_belief.h"
 #include "homing/localization/speed_ratios.h"
@@ -110,7 +111,7 @@ class PictureBelief {
     const double weight = started_ ? EvidenceWeight(moved, route_.correlation_steps) : 1;
     started_ = true;
     belief_.Weigh(FactorsOf(differences, weight), SpeedRatios(map_, route_, masses, profiles),
-                  speeds_);
+                  speeds_, DirectionFactors(route_, profiles, weight));
     belief_.Scale(1 / std::max(belief_.Mass(), 1e-20));
     return BestWindow(belief_.Masses(), run.tolerance_steps, map_.step_count());
   }

@@ -15,9 +15,11 @@ namespace {
 constexpr double kChange = 0.01;
 
 // Weighs steps alone: the odometer says nothing.
-StepMass Weigh(RouteBelief& belief, const std::vector<float>& factors) {
+constexpr std::array<double, 2> kBothWays{1, 1};
+StepMass Weigh(RouteBelief& belief, const std::vector<float>& factors,
+               const std::array<double, 2>& directions = kBothWays) {
   const std::vector<std::int16_t> no_ratios(factors.size(), SpeedEvidence::kNoRatio);
-  return belief.Weigh(factors, no_ratios, SpeedEvidence(0.1));
+  return belief.Weigh(factors, no_ratios, SpeedEvidence(0.1), directions);
 }
 
 // All at one step, all directions and speeds.
@@ -28,6 +30,13 @@ RouteBelief PeakAt(std::int64_t steps, std::int64_t at) {
   factors[static_cast<std::size_t>(at)] = 1.0F;
   Weigh(belief, factors);
   return belief;
+}
+
+TEST(RouteBeliefTest, DirectionsAreWeighed) {
+  RouteBelief belief = PeakAt(200, 100);
+  Weigh(belief, std::vector<float>(200, 1.0F), {0.5, 1.5});
+  const std::array<double, 2> mass = belief.DirectionMass(0, 199);
+  EXPECT_NEAR(mass[1] / mass[0], 3, 1e-4);
 }
 
 TEST(RouteBeliefTest, MotionKeepsMassAwayFromTheEnds) {
@@ -68,7 +77,7 @@ TEST(RouteBeliefTest, TheOdometerSetsTheSpeed) {
     const auto ratio = SpeedEvidence::IndexOf(static_cast<int>(20 * std::log2(speed)));
     const std::vector<float> factors(400, 1.0F);
     const std::vector<std::int16_t> ratios(400, ratio);
-    for (int i = 0; i < 5; ++i) belief.Weigh(factors, ratios, SpeedEvidence(0.02));
+    for (int i = 0; i < 5; ++i) belief.Weigh(factors, ratios, SpeedEvidence(0.02), kBothWays);
     EXPECT_NEAR(std::log2(belief.MeanSpeed().absolute / speed), 0, 0.3) << speed;
   }
 }

@@ -58,6 +58,21 @@ TEST(CameraOdometerTest, ReadsWhereTheCameraLooksFromTheSigns) {
   EXPECT_EQ(CameraOdometer(along).Read(Reading(1, 1, 90)), 110);
 }
 
+TEST(CameraOdometerTest, ASteadySignTellsTheWay) {
+  const CameraOdometer steady(ProfilesWith(-100, 10));
+  EXPECT_GT(steady.OutwardLogOdds(Reading(-5, 0, 90)), 2);
+  EXPECT_LT(steady.OutwardLogOdds(Reading(5, 0, 90)), -2);
+  EXPECT_EQ(steady.OutwardLogOdds(Reading(0, 0, 90)), 0);
+}
+
+TEST(CameraOdometerTest, ASignThatChangesOverTheMapTellsLittle) {
+  std::vector<FlowProfile> turning = ProfilesWith(100, 0);
+  for (std::size_t i = 0; i < turning.size(); i += 4) turning[i].odometer.median_x = -100;
+  const CameraOdometer odometer(turning);
+  EXPECT_GT(odometer.OutwardLogOdds(Reading(5, 0, 90)), 0);
+  EXPECT_LT(odometer.OutwardLogOdds(Reading(5, 0, 90)), 1.5);
+}
+
 TEST(CameraOdometerTest, AStepWithoutAReadingHasNone) {
   EXPECT_EQ(CameraOdometer(ProfilesWith(10, 10)).Read({}), CameraOdometer::kNone);
 }
