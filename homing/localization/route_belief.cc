@@ -11,9 +11,9 @@ namespace homing {
 namespace {
 
 // Of the changes of speed, those to any speed; the others are to a neighbouring one.
-constexpr double kJumpFraction = 0.1;
+constexpr double kJumpFraction = 0.3;
 // Probability an observation that the robot turns back.
-constexpr float kTurnBack = 0.001F;
+constexpr float kTurnBack = 0.0003F;
 // Probability an observation of being one step further, or one less far, than the speed says.
 constexpr double kDiffusion = 0.02;
 // Probability of moving by one either way in a turn on the spot.
