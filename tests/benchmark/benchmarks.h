@@ -9,6 +9,7 @@ void RegisterIndexBenchmarks(bool quick);
 void RegisterFrameBenchmarks(bool quick);
 void RegisterStreamBenchmarks(bool quick);
 void RegisterAppendBenchmarks(bool quick);
+void RegisterLocalizeBenchmarks(bool quick);
 
 }  // namespace homing::benchmarks
 

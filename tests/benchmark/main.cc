@@ -128,6 +128,7 @@ int Run(const Arguments& arguments) {
   RegisterFrameBenchmarks(arguments.quick);
   RegisterStreamBenchmarks(arguments.quick);
   RegisterAppendBenchmarks(arguments.quick);
+  RegisterLocalizeBenchmarks(arguments.quick);
   InitializeBenchmark(arguments);
   Results results;
   KeepingReporter reporter(&results);

@@ -138,6 +138,18 @@ std::vector<Row> AllRows(const Results& results) {
                "flow vectors to durable fingerprints against an echo on the same server");
   table.Faster("append_durable", "append_plain", "append_durable", 0.7, true,
                "durable appends against plain SQLite, same batch and pragmas");
+  const auto& localize = [&](const std::string& name, const std::string& series, double bound,
+                             const std::string& meaning) {
+    std::vector<double> microseconds = results.Of(series).cpu_s;
+    for (double& value : microseconds) value *= 1e6;
+    table.AtMost(name, microseconds, bound, meaning);
+  };
+  localize("localize_steady", "localize_steady", 40,
+           "us of one core, two cameras, the place known, 2,000 steps");
+  localize("localize_full_2000", "localize_full/2000", 150,
+           "us of one core, two cameras, all of 2,000 steps compared");
+  localize("localize_full_10000", "localize_full/10000", 500,
+           "us of one core, two cameras, all of 10,000 steps compared");
   const auto& load = [&](const std::string& run, const std::string& counter, double bound,
                          const std::string& meaning) {
     table.AtMost(run + "_" + counter, table.Counter(run, counter), bound, meaning);
