@@ -35,8 +35,8 @@ constexpr double kMostHeading = 0.8;
 constexpr double kMostTurn = 0.5;
 // Steps tried either way.
 constexpr std::int64_t kSteps = 10;
-// Log likelihood of a unit of profile distance, for an observation of full weight; and the distance
-// driven that has it.
+// Log likelihood of a unit of profile distance. The pose is corrected each time that the robot has
+// driven so far: nearer views show the same again. Distances of what is seen.
 constexpr double kPerDistance = 1.0 / 60;
 constexpr double kFullWeight = 0.10;
 // Less driven, and less than this share of the turn, shows no depth; the first offset is told after
@@ -207,6 +207,9 @@ ObservedFlow PathPoseFilter::Straighten(const ObservedFlow& flow) const {
 
 void PathPoseFilter::Correct(const JourneyMap& map, std::int64_t step, const ObservedFlow& flow) {
   if (std::abs(driven_) < std::max(kLeastDriven, kLeastOfTurn * std::abs(turned_))) return;
+  uncorrected_ += std::abs(driven_);
+  if (uncorrected_ < kFullWeight) return;
+  uncorrected_ = 0;
   Tried tried;
   const double offset_step =
       std::clamp(std::sqrt(offset_variance_), kLeastOffsetStep, kMostOffsetStep);
@@ -250,7 +253,6 @@ void PathPoseFilter::Correct(const JourneyMap& map, std::int64_t step, const Obs
 void PathPoseFilter::Fit(const Tried& tried) {
   double least = tried.distances[0][0];
   for (const auto& row : tried.distances) least = std::min(least, *std::ranges::min_element(row));
-  const double scale = kPerDistance * std::min(1.0, std::abs(driven_) / kFullWeight);
   const double determinant =
       std::max(1e-12, offset_variance_ * heading_variance_ - covariance_ * covariance_);
   double sum = 0, mean_o = 0, mean_h = 0, oo = 0, hh = 0, oh = 0;
@@ -260,7 +262,7 @@ void PathPoseFilter::Fit(const Tried& tried) {
       const double prior =
           (of * of * heading_variance_ - 2 * of * he * covariance_ + he * he * offset_variance_) /
           determinant;
-      const double weight = std::exp(-0.5 * prior - scale * (tried.distances[h][o] - least));
+      const double weight = std::exp(-0.5 * prior - kPerDistance * (tried.distances[h][o] - least));
       sum += weight;
       mean_o += weight * of;
       mean_h += weight * he;

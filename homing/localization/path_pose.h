@@ -84,6 +84,8 @@ class PathPoseFilter {
   bool is_started_ = false;
   bool has_motion_ = false;
   // Distances of what is seen.
+  // Driven since the last correction, and since the place was last lost.
+  double uncorrected_ = 0;
   double driven_since_lost_ = 0;
   PathPose pose_;
   // Covariance of offset and heading.

@@ -58,11 +58,8 @@ JourneyMap MapOf(const ProjectedWorld& world, std::int64_t steps) {
 std::vector<Observation> WayHome(const ProjectedWorld& world, std::int64_t steps) {
   const double middle = static_cast<double>(steps) * kStepM / 2;
   const double length = static_cast<double>(kWarmUp + kMeasured) * kStepM;
-  return ObservationsOf(
-      ProjectedDrive(&world, {.seed = 2,
-                              .start_m = middle,
-                              .end_m = middle - length,
-                              .travel = Travel::kReturn}));
+  return ObservationsOf(ProjectedDrive(
+      &world, {.seed = 2, .start_m = middle, .end_m = middle - length, .travel = Travel::kReturn}));
 }
 
 // Localises `home` on `map` again and again; the first observations of each round are not timed.
@@ -108,8 +105,7 @@ void LocaliseFull(benchmark::State& state) {
 }  // namespace
 
 void RegisterLocalizeBenchmarks(bool quick) {
-  benchmark::RegisterBenchmark("localize_steady", LocaliseKnown)
-      ->Unit(benchmark::kMicrosecond);
+  benchmark::RegisterBenchmark("localize_steady", LocaliseKnown)->Unit(benchmark::kMicrosecond);
   benchmark::RegisterBenchmark("localize_full", LocaliseFull)
       ->Arg(2000)
       ->Arg(quick ? 4000 : 10000)
