@@ -11,9 +11,12 @@ namespace {
 // Width of the ratio's distribution (Laplace): this many times its noise, at least kLeastWidth
 // octaves. A fraction kOutlierFraction of the ratios is six times as wide.
 constexpr double kWidthOfNoise = 4;
-constexpr double kLeastWidth = 0.115;
+constexpr double kLeastWidth = 0.08;
 constexpr double kOutlierFraction = 0.05;
 constexpr double kOutlierWidth = 6;
+// A speed stands for all within so many octaves: the speeds are half an octave apart. A ratio
+// between two of them must not count less than one of a place where the robot would stand.
+constexpr double kHalfSpacing = 0.25;
 // A slower robot counts as standing, log2 of steps an observation.
 constexpr double kStanding = -3.6;
 // Noise at which the odometer counts half as good as it can be, octaves.
@@ -24,7 +27,9 @@ constexpr double kPoorWeight = 0.3;
 constexpr double kPoorChange = 0.05;
 constexpr double kGoodChange = 0.3;
 
-double Likelihood(double error, double width) {
+// `apart`: from the speed, octaves.
+double Likelihood(double apart, double width) {
+  const double error = std::max(0.0, std::abs(apart) - kHalfSpacing);
   return (1 - kOutlierFraction) * std::exp(-error / width) +
          kOutlierFraction * std::exp(-error / (kOutlierWidth * width));
 }
@@ -44,7 +49,7 @@ SpeedEvidence::SpeedEvidence(double noise) {
           speed == 0
               ? (1 - kOutlierFraction) * std::exp(-std::max(0.0, ratio - kStanding) / width) +
                     kOutlierFraction * kOutlierFraction
-              : Likelihood(std::abs(ratio - std::log2(kSpeeds[speed])), width);
+              : Likelihood(ratio - std::log2(kSpeeds[speed]), width);
       tables_[speed][index] = static_cast<float>(std::pow(likelihood, weight));
     }
     tables_[speed][kNoRatio] = 1;

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace homing {
@@ -18,6 +19,16 @@ TEST(SpeedEvidenceTest, TheMeasuredRatioIsTheLikeliestSpeed) {
       }
     }
   }
+}
+
+// A robot of an in-between speed, as 5 frames a second against 30, was believed to stand where the
+// map has more flow.
+TEST(SpeedEvidenceTest, ARatioBetweenTwoSpeedsCountsAsMuchAsStanding) {
+  const SpeedEvidence evidence(0.01);
+  const auto between = SpeedEvidence::IndexOf(static_cast<int>(std::lround(20 * -2.75)));
+  const auto standing = SpeedEvidence::IndexOf(-20 * 5);
+  const float best = std::max(evidence.of(1)[between], evidence.of(2)[between]);
+  EXPECT_GE(best, 0.95F * evidence.of(0)[standing]);
 }
 
 TEST(SpeedEvidenceTest, NoRatioIsNeutralAndEveryValueIsPositive) {
