@@ -49,6 +49,7 @@ class Localizers {
         ++answers_;
         gaps->Answered(1000 + i);
       };
+      own.log = [gaps, i](const std::string& step) { gaps->Noted(1000 + i, step); };
       threads_.emplace_back([this, own] {
         while (!stopping_) {
           const auto share = faults::LocalizeOn(own, faults::JourneyOf(own.robot, 0));
@@ -160,8 +161,9 @@ void CheckRounds(const Programs& programs, int rounds, bool judges_gaps, faults:
   GapWatch gaps;
   faults::Ledger ledger;
   Localizers localizers(options, &gaps);
-  faults::Fleet fleet(options, kRobots, &ledger, /*first_journey=*/1,
-                      [&gaps](int robot) { gaps.Answered(robot); });
+  faults::Fleet fleet(
+      options, kRobots, &ledger, /*first_journey=*/1, [&gaps](int robot) { gaps.Answered(robot); },
+      [&gaps](int robot, const std::string& step) { gaps.Noted(robot, step); });
   int done = 0;
   while (done < rounds && fleet.error().empty() && RunRound(done, &database, &gaps)) ++done;
   fleet.Finish();
