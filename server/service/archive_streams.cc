@@ -84,7 +84,7 @@ void ImportStream::OnReadDone(bool ok) {
     return;
   }
   if (!ok) {
-    if (!core_->pool.TryRun([self = self_] { self->Complete(); })) {
+    if (!core_->store_writes.TryRun([self = self_] { self->Complete(); })) {
       FinishWith(BusyError());
     }
     return;
