@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "absl/strings/str_cat.h"
+#include "storage/postgres/pg_connection.h"
 #include "storage/postgres/pg_step_rows.h"
 #include "tests/storage/store_fixture.h"
 #include "tests/support/postgres_server.h"
@@ -215,6 +216,29 @@ TEST_F(PostgresStoreTest, ADatabaseThatDoesNotAnswerIsUnavailableInTime) {
   server_->Start();
   EXPECT_THAT(one_->ProbeWrite(), IsOk());
   EXPECT_THAT(one_->AppendSteps({Append(MakeSteps(1)[0], epoch)})[0], IsOk());
+}
+
+TEST_F(PostgresStoreTest, OtherJourneysBeginWhileAnAppendWaits) {
+  const std::int64_t epoch = one_->AcquireJourney(kJourney, "robot").value().epoch;
+  const auto locking = postgres::PgConnection::Open(
+      url_, postgres::PgConnection::Access::kReadWrite, postgres::After(std::chrono::seconds(5)));
+  ASSERT_THAT(locking, IsOk());
+  const auto execute = [&](const std::string& sql) {
+    return (*locking)->Execute(sql, postgres::After(std::chrono::seconds(5)));
+  };
+  ASSERT_THAT(execute("BEGIN; SELECT 1 FROM journeys FOR UPDATE"), IsOk());
+  std::atomic<bool> is_appended = false;
+  std::thread append([&] {
+    EXPECT_THAT(one_->AppendSteps({Append(MakeSteps(1)[0], epoch)})[0], IsOk());
+    is_appended = true;
+  });
+  std::this_thread::sleep_for(std::chrono::milliseconds(200));
+  const std::string other = "robots/r/journeys/other";
+  EXPECT_THAT(one_->CreateJourney(Record(other)), IsOk());
+  EXPECT_THAT(one_->AcquireJourney(other, "robot"), IsOk());
+  EXPECT_FALSE(is_appended);
+  EXPECT_THAT(execute("COMMIT"), IsOk());
+  append.join();
 }
 
 TEST_F(PostgresStoreTest, CommitsThatAreNotSynchronousAreRefused) {
