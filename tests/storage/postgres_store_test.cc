@@ -220,25 +220,20 @@ TEST_F(PostgresStoreTest, ADatabaseThatDoesNotAnswerIsUnavailableInTime) {
 
 TEST_F(PostgresStoreTest, OtherJourneysBeginWhileAnAppendWaits) {
   const std::int64_t epoch = one_->AcquireJourney(kJourney, "robot").value().epoch;
-  const auto locking = postgres::PgConnection::Open(
-      url_, postgres::PgConnection::Access::kReadWrite, postgres::After(std::chrono::seconds(5)));
-  ASSERT_THAT(locking, IsOk());
-  const auto execute = [&](const std::string& sql) {
-    return (*locking)->Execute(sql, postgres::After(std::chrono::seconds(5)));
-  };
-  ASSERT_THAT(execute("BEGIN; SELECT 1 FROM journeys FOR UPDATE"), IsOk());
+  const auto soon = postgres::After(std::chrono::seconds(10));
+  const auto locking =
+      postgres::PgConnection::Open(url_, postgres::PgConnection::Access::kReadWrite, soon);
+  ASSERT_THAT(locking.value()->Execute("BEGIN; SELECT 1 FROM journeys FOR UPDATE", soon), IsOk());
   std::atomic<bool> is_appended = false;
-  std::thread append([&] {
-    EXPECT_THAT(one_->AppendSteps({Append(MakeSteps(1)[0], epoch)})[0], IsOk());
-    is_appended = true;
-  });
+  std::thread append(
+      [&] { is_appended = one_->AppendSteps({Append(MakeSteps(1)[0], epoch)})[0].ok(); });
   std::this_thread::sleep_for(std::chrono::milliseconds(200));
-  const std::string other = "robots/r/journeys/other";
-  EXPECT_THAT(one_->CreateJourney(Record(other)), IsOk());
-  EXPECT_THAT(one_->AcquireJourney(other, "robot"), IsOk());
+  EXPECT_THAT(one_->CreateJourney(Record("robots/r/journeys/other")), IsOk());
+  EXPECT_THAT(one_->AcquireJourney("robots/r/journeys/other", "robot"), IsOk());
   EXPECT_FALSE(is_appended);
-  EXPECT_THAT(execute("COMMIT"), IsOk());
+  EXPECT_THAT((*locking)->Execute("COMMIT", soon), IsOk());
   append.join();
+  EXPECT_TRUE(is_appended);
 }
 
 TEST_F(PostgresStoreTest, CommitsThatAreNotSynchronousAreRefused) {
