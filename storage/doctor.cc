@@ -7,6 +7,7 @@
 #include <set>
 #include <utility>
 
+#include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
 #include "homing/base/status_macros.h"
 #include "storage/connection.h"
@@ -49,7 +50,9 @@ class Examination {
   absl::StatusOr<Diagnosis> Run() {
     HOMING_RETURN_IF_ERROR(CheckReadable());
     CheckPages();
-    for (const std::string& name : Names(kJourneyNames)) ExamineJourney(name);
+    for (const std::string& name : Names(kJourneyNames)) {
+      if (!absl::StartsWith(name, kHiddenPrefix)) ExamineJourney(name);
+    }
     for (const std::string& name : Names(kModelNames)) ExamineModel(name);
     return std::move(diagnosis_);
   }

@@ -19,6 +19,9 @@ struct JourneyRow {
   JourneyRecord record;
 };
 
+// Begins the name of a journey that is being deleted, and that no reader of the store sees.
+inline constexpr char kHiddenPrefix[] = "deleted/";
+
 absl::Status JourneyNotFound(const std::string& name);
 
 // Writes the counts too. ALREADY_EXISTS. Returns the id.

@@ -95,6 +95,8 @@ absl::StatusOr<std::unique_ptr<JourneyStore>> OpenJourneyStore(const StoreOption
   if (path != kInMemory) {
     HOMING_RETURN_IF_ERROR(store->StartCheckpoints(options.busy_timeout_ms));
     store->KeepReserve(std::move(reserve));
+    // On a full disk the next deletion does it.
+    store->FinishDeletions().IgnoreError();
   }
   return store;
 }

@@ -37,6 +37,8 @@ class SqliteJourneyStore final : public JourneyStore {
   absl::Status StartCheckpoints(int busy_timeout_ms);
   // REQUIRES: a file, and not read-only. Once.
   void KeepReserve(std::unique_ptr<SpaceReserve> reserve);
+  // Goes on with deletions that a server before this one did not end.
+  absl::Status FinishDeletions();
 
   absl::Status CreateJourney(const JourneyRecord& record) override;
   absl::StatusOr<JourneyRecord> GetJourney(const std::string& name) override;
@@ -70,7 +72,17 @@ class SqliteJourneyStore final : public JourneyStore {
   // appends.
   absl::Status Write(const Body& body);
   absl::Status Transact(const Body& body);
-  absl::Status DeleteOnce(const std::string& name);
+  struct Pieces {
+    // In one transaction.
+    std::int64_t steps;
+    // Each piece waits until the log is in the file, and overwrites it.
+    bool reuse_log;
+  };
+  // Deletes a journey, one of more than a piece in pieces. OUT: it is hidden, and some of its steps
+  // are left; a further call goes on with these.
+  absl::Status DeleteOnce(const std::string& name, Pieces pieces, bool* is_hidden);
+  // The steps that are left of all hidden journeys.
+  absl::Status DeleteHidden(Pieces pieces);
   // Where there is space again.
   void FillReserve() HOMING_REQUIRES(reserve_mutex_);
   // Not while a deletion uses it.

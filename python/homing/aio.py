@@ -9,7 +9,7 @@ from typing import (Any, AsyncIterable, AsyncIterator, Awaitable, Callable, Iter
 import grpc
 
 from . import convert
-from .connection import Retry, Server, credentials, options
+from .connection import Retry, Server, Trace, credentials, options
 from .errors import HomingError, from_rpc
 from .outbox import Outbox
 from .types import Answer, Camera, Journey, Match, Observation, Recorded, Travel, View
@@ -93,6 +93,7 @@ class AsyncClient:
 
     def __init__(self, server: Union[Server, str] = Server()):
         self._server = Server(address=server) if isinstance(server, str) else server
+        self._trace = Trace(self._server)
         secret = credentials(self._server)
         self._channel = (grpc.aio.insecure_channel(self._server.address, options())
                          if secret is None else
@@ -113,7 +114,7 @@ class AsyncClient:
         retry = Retry(self._server)
         while True:
             try:
-                return await method(request, timeout=60)
+                return await method(request, timeout=60, metadata=self._trace.metadata())
             except grpc.RpcError as error:
                 await _wait(retry, error)
 
@@ -133,7 +134,7 @@ class AsyncClient:
         reported = -1
         try:
             while True:
-                call = self._journeys.RecordJourney()
+                call = self._journeys.RecordJourney(metadata=self._trace.metadata())
                 writing: Optional[asyncio.Future] = None
                 try:
                     await call.write(config)
@@ -188,7 +189,7 @@ class AsyncClient:
         reported = -1
         try:
             while True:
-                call = self._homing.Localize()
+                call = self._homing.Localize(metadata=self._trace.metadata())
                 writing: Optional[asyncio.Future] = None
                 try:
                     await call.write(homing_service_pb2.LocalizeRequest(config=config))

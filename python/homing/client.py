@@ -9,7 +9,7 @@ from typing import Any, Callable, Iterable, Iterator, List, Optional, Union
 import grpc
 
 from . import convert
-from .connection import Retry, Server, credentials, options
+from .connection import Retry, Server, Trace, credentials, options
 from .errors import from_rpc
 from .outbox import Outbox
 from .types import Answer, Camera, Journey, Match, Observation, Recorded, Travel, View
@@ -99,6 +99,7 @@ class Client:
 
     def __init__(self, server: Union[Server, str] = Server()):
         self._server = Server(address=server) if isinstance(server, str) else server
+        self._trace = Trace(self._server)
         secret = credentials(self._server)
         self._channel = (grpc.insecure_channel(self._server.address, options()) if secret is None
                          else grpc.secure_channel(self._server.address, secret, options()))
@@ -118,7 +119,7 @@ class Client:
         retry = Retry(self._server)
         while True:
             try:
-                return method(request, timeout=60)
+                return method(request, timeout=60, metadata=self._trace.metadata())
             except grpc.RpcError as error:
                 wait = retry.wait_after(error)
                 if wait is None:
@@ -148,7 +149,8 @@ class Client:
             link = _Link(sender, config,
                          lambda seen: journey_service_pb2.RecordJourneyRequest(observation=seen),
                          window)
-            stream = self._journeys.RecordJourney(link.requests())
+            stream = self._journeys.RecordJourney(link.requests(),
+                                                   metadata=self._trace.metadata())
             try:
                 for response in stream:
                     durable = response.next_sequence
@@ -195,7 +197,7 @@ class Client:
             link = _Link(sender, homing_service_pb2.LocalizeRequest(config=config),
                          lambda seen: homing_service_pb2.LocalizeRequest(observation=seen), window)
             link.begin()
-            stream = self._homing.Localize(link.requests())
+            stream = self._homing.Localize(link.requests(), metadata=self._trace.metadata())
             try:
                 for response in stream:
                     link.answered()

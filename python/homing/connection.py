@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import dataclasses
+import os
 import random
+import re
 import time
 from typing import Optional, Sequence, Tuple
 
@@ -26,6 +28,9 @@ class Server:
     token_file: Optional[str] = None
     # How long a broken link is tried again since it last worked, seconds.
     retry_for: float = 60.0
+    # W3C traceparent of whoever started this program; None: the environment's TRACEPARENT, without
+    # it a new trace. Each call names the trace, and its own span.
+    traceparent: Optional[str] = None
 
 
 def _read(path: Optional[str]) -> Optional[bytes]:
@@ -57,6 +62,21 @@ def credentials(server: Server) -> Optional[grpc.ChannelCredentials]:
         return channel
     return grpc.composite_channel_credentials(
         channel, grpc.access_token_call_credentials(token.decode().strip()))
+
+
+class Trace:
+    """The trace to which all calls of one client belong."""
+
+    def __init__(self, server: Server):
+        text = os.environ.get("TRACEPARENT", "") if server.traceparent is None else server.traceparent
+        found = re.fullmatch("00-([0-9a-f]{32})-([0-9a-f]{16})-([0-9a-f]{2})", text)
+        is_valid = found is not None and int(found[1], 16) > 0 and int(found[2], 16) > 0
+        self._trace_id = found[1] if found and is_valid else os.urandom(16).hex()
+        self._flags = found[3] if found and is_valid else "00"
+
+    def metadata(self) -> Tuple[Tuple[str, str], ...]:
+        """Of one call."""
+        return (("traceparent", f"00-{self._trace_id}-{os.urandom(8).hex()}-{self._flags}"),)
 
 
 class Retry:

@@ -36,6 +36,21 @@ absl::Status CheckId(const std::string& id, const std::string& field) {
   return absl::OkStatus();
 }
 
+absl::Status CheckNewId(const std::string& id, const std::string& field) {
+  HOMING_RETURN_IF_ERROR(CheckId(id, field));
+  if (id[0] == '.' || id[0] == '-') {
+    return TextMustBe(
+        field, id, "1 to 63 of [a-zA-Z0-9._-], of which the first is a letter, a digit or \"_\"");
+  }
+  return absl::OkStatus();
+}
+
+absl::Status CheckNewJourney(const JourneyName& name, const std::string& robot_field,
+                             const std::string& journey_field) {
+  HOMING_RETURN_IF_ERROR(CheckNewId(name.robot, robot_field));
+  return CheckNewId(name.journey, journey_field);
+}
+
 absl::StatusOr<JourneyName> ParseJourneyPattern(const std::string& name, const std::string& field) {
   const std::vector<std::string> parts = absl::StrSplit(name, '/');
   if (parts.size() != 4 || parts[0] != "robots" || parts[2] != "journeys") {

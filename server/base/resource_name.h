@@ -25,6 +25,12 @@ struct JourneyName {
 
 // 1 to 63 of [a-zA-Z0-9._-], not "-".
 absl::Status CheckId(const std::string& id, const std::string& field);
+// Of a resource that is created: also, the first one is a letter, a digit or "_". Exported files,
+// URLs and shells read ".", ".." and "-x" as something else. What exists keeps its name.
+absl::Status CheckNewId(const std::string& id, const std::string& field);
+// Both ids of a journey that is created.
+absl::Status CheckNewJourney(const JourneyName& name, const std::string& robot_field,
+                             const std::string& journey_field);
 absl::StatusOr<JourneyName> ParseJourneyName(const std::string& name, const std::string& field);
 // Wildcards allowed.
 absl::StatusOr<JourneyName> ParseJourneyPattern(const std::string& name, const std::string& field);

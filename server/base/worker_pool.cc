@@ -1,6 +1,7 @@
 #include "server/base/worker_pool.h"
 
 #include <algorithm>
+#include <chrono>
 #include <opencv2/core/utility.hpp>
 #include <utility>
 
@@ -9,8 +10,10 @@
 namespace homing::server {
 namespace {
 
-// A worker runs at most this many tasks of one stream before it takes another stream.
+// A worker takes another stream after so many tasks of one, or after so long: a stream that sends
+// much again after a broken link does not hold up those that send one observation at a time.
 constexpr int kTasksATurn = 8;
+constexpr std::chrono::milliseconds kTurn{2};
 
 void RunOpenCvSingleThreaded() {
   static std::once_flag once;
@@ -27,7 +30,7 @@ WorkerPool::WorkerPool(int workers, int max_waiting)
   }
 }
 
-WorkerPool::~WorkerPool() {
+void WorkerPool::Stop() {
   {
     const MutexLock lock(mutex_);
     stopping_ = true;
@@ -35,6 +38,17 @@ WorkerPool::~WorkerPool() {
   changed_.NotifyAll();
   for (std::thread& thread : threads_) {
     thread.join();
+  }
+  threads_.clear();
+  std::deque<Task> left;
+  {
+    const MutexLock lock(mutex_);
+    stopped_ = true;
+    left.swap(tasks_);
+  }
+  // Another pool's tasks may have added them after the last thread had ended.
+  for (const Task& task : left) {
+    task();
   }
 }
 
@@ -52,7 +66,12 @@ bool WorkerPool::TryRun(Task task) {
 
 void WorkerPool::Run(Task task) {
   {
-    const MutexLock lock(mutex_);
+    MutexLock lock(mutex_);
+    if (stopped_) {
+      lock.Unlock();
+      task();
+      return;
+    }
     tasks_.push_back(std::move(task));
   }
   changed_.NotifyOne();
@@ -79,55 +98,64 @@ void WorkerPool::Work() {
   }
 }
 
-void Strand::Post(WorkerPool::Task task) {
+void Strand::PostTo(WorkerPool* pool, WorkerPool::Task task) {
   {
     const MutexLock lock(mutex_);
-    tasks_.push_back(std::move(task));
+    tasks_.push_back({pool, std::move(task)});
     if (scheduled_) {
       return;
     }
     scheduled_ = true;
   }
-  ScheduleRest();
+  ScheduleOn(pool);
 }
 
 void Strand::RunOrPost(WorkerPool::Task task) {
   {
     const MutexLock lock(mutex_);
     if (scheduled_) {
-      tasks_.push_back(std::move(task));
+      tasks_.push_back({pool_, std::move(task)});
       return;
     }
     scheduled_ = true;
   }
   task();
+  ScheduleRest();
+}
+
+void Strand::ScheduleOn(WorkerPool* pool) {
+  pool->Run([self = shared_from_this(), pool] { self->RunSome(pool); });
+}
+
+void Strand::ScheduleRest() {
+  WorkerPool* next = nullptr;
   {
     const MutexLock lock(mutex_);
     scheduled_ = !tasks_.empty();
     if (!scheduled_) {
       return;
     }
+    next = tasks_.front().pool;
   }
-  ScheduleRest();
+  ScheduleOn(next);
 }
 
-void Strand::ScheduleRest() {
-  pool_->Run([self = shared_from_this()] { self->RunSome(); });
-}
-
-void Strand::RunSome() {
+void Strand::RunSome(WorkerPool* pool) {
+  const auto end = std::chrono::steady_clock::now() + kTurn;
   for (int run = 0; run < kTasksATurn; ++run) {
     WorkerPool::Task task;
     {
       const MutexLock lock(mutex_);
-      if (tasks_.empty()) {
-        scheduled_ = false;
-        return;
+      if (tasks_.empty() || tasks_.front().pool != pool) {
+        break;
       }
-      task = std::move(tasks_.front());
+      task = std::move(tasks_.front().task);
       tasks_.pop_front();
     }
     task();
+    if (std::chrono::steady_clock::now() >= end) {
+      break;
+    }
   }
   ScheduleRest();
 }

@@ -1,4 +1,4 @@
-// A fixed number of threads does all computing; tasks of one stream run in order.
+// A fixed number of threads runs tasks; those of one stream run in order.
 #ifndef SERVER_BASE_WORKER_POOL_H_
 #define SERVER_BASE_WORKER_POOL_H_
 
@@ -7,6 +7,7 @@
 #include <list>
 #include <memory>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "homing/base/mutex.h"
@@ -21,15 +22,19 @@ class WorkerPool {
 
   // Starts at least one thread. TryRun refuses when `max_waiting` tasks wait.
   explicit WorkerPool(int workers, int max_waiting = 1024);
-  // Runs all waiting tasks, then stops.
-  ~WorkerPool();
+  // As Stop.
+  ~WorkerPool() { Stop(); }
   WorkerPool(const WorkerPool&) = delete;
   WorkerPool& operator=(const WorkerPool&) = delete;
 
   // False: too many tasks wait, and `task` is not run.
   [[nodiscard]] bool TryRun(Task task);
-  // Never refuses. The caller must bound its tasks (a Strand has at most one waiting).
+  // Never refuses. The caller must bound its tasks (a Strand has at most one waiting). After Stop
+  // it runs the task on the caller's thread.
   void Run(Task task);
+  // Runs all waiting tasks, then ends the threads. Of pools whose tasks call each other, all are
+  // stopped before the first is destroyed.
+  void Stop();
   // The number of waiting tasks.
   std::size_t waiting() const;
 
@@ -41,28 +46,38 @@ class WorkerPool {
   ConditionVariable changed_;
   std::deque<Task> tasks_ HOMING_GUARDED_BY(mutex_);
   bool stopping_ HOMING_GUARDED_BY(mutex_) = false;
+  bool stopped_ HOMING_GUARDED_BY(mutex_) = false;
   std::vector<std::thread> threads_;
 };
 
-// Tasks of one stream: one at a time, in the order posted. Thread-safe.
+// Tasks of one stream: one at a time, in the order posted, also across pools. Thread-safe.
 class Strand : public std::enable_shared_from_this<Strand> {
  public:
   // `pool` must outlive all tasks.
   explicit Strand(WorkerPool* pool) : pool_(pool) {}
 
-  void Post(WorkerPool::Task task);
+  void Post(WorkerPool::Task task) { PostTo(pool_, std::move(task)); }
+  // Runs this task in another pool, which must outlive all tasks too.
+  void PostTo(WorkerPool* pool, WorkerPool::Task task);
   // Runs the task on the caller's thread before it returns, unless another task of this strand runs
   // or waits.
   void RunOrPost(WorkerPool::Task task);
 
  private:
-  void RunSome();
+  struct Entry {
+    WorkerPool* pool;
+    WorkerPool::Task task;
+  };
+
+  void RunSome(WorkerPool* pool);
+  void ScheduleOn(WorkerPool* pool);
+  // Schedules the next task, if there is one.
   void ScheduleRest();
 
   WorkerPool* const pool_;
   Mutex mutex_;
   // A list and not a deque: an empty deque takes 600 bytes, and there are many strands.
-  std::list<WorkerPool::Task> tasks_ HOMING_GUARDED_BY(mutex_);
+  std::list<Entry> tasks_ HOMING_GUARDED_BY(mutex_);
   bool scheduled_ HOMING_GUARDED_BY(mutex_) = false;
 };
 

@@ -22,7 +22,7 @@ storage::StoredModel BuiltIn() {
 absl::StatusOr<TrainedModel> ModelCatalog::Train(const std::string& model_id,
                                                  const TrainingOptions& options,
                                                  std::int64_t now_ns) {
-  HOMING_RETURN_IF_ERROR(CheckId(model_id, "model_id"));
+  HOMING_RETURN_IF_ERROR(CheckNewId(model_id, "model_id"));
   TrainedModel trained;
   trained.stored.name = absl::StrCat("deviationModels/", model_id);
   trained.stored.training = options;

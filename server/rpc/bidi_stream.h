@@ -33,8 +33,10 @@ class BidiStream : public grpc::ServerBidiReactor<Request, Response>,
                    public OpenStream,
                    public std::enable_shared_from_this<BidiStream<Request, Response>> {
  public:
-  BidiStream(ServiceCore* core, grpc::CallbackServerContext* context, Rpc rpc)
+  // `opening` handles the first request, which waits for the store.
+  BidiStream(ServiceCore* core, grpc::CallbackServerContext* context, Rpc rpc, WorkerPool* opening)
       : core_(core),
+        opening_(opening),
         call_(core, *context, rpc),
         watch_(core, context),
         strand_(std::make_shared<Strand>(&core->pool)) {}
@@ -99,8 +101,9 @@ class BidiStream : public grpc::ServerBidiReactor<Request, Response>,
         self->HandleGuarded(*request);
       };
       read_after_answer = policy_.NoteWait(std::chrono::steady_clock::now() - read_begin_);
-      if (!policy_.RunsInline(bytes)) {
-        strand_->Post(std::move(task));
+      WorkerPool* const opening = std::exchange(opening_, nullptr);
+      if (opening != nullptr || !policy_.RunsInline(bytes)) {
+        strand_->PostTo(opening != nullptr ? opening : &core_->pool, std::move(task));
         reading_ = false;
         ReadNext();
         return;
@@ -258,6 +261,8 @@ class BidiStream : public grpc::ServerBidiReactor<Request, Response>,
   }
 
   ServiceCore* const core_;
+  // Null after the first request. Used by gRPC's reads alone.
+  WorkerPool* opening_;
   IncomingCall call_;
   StreamWatch watch_;
   const std::shared_ptr<Strand> strand_;

@@ -57,11 +57,13 @@ inline std::int64_t WallClockNs() {
       .count();
 }
 
-// The order of destruction is the reverse: first the workers, then the commit queue, then the
-// store.
+// The order of destruction is the reverse: first the commit queue, then the store. The workers have
+// stopped before.
 struct ServiceCore {
-  // That wait.
+  // Tasks that wait for a thread of long_work.
   static constexpr int kMaxLongWork = 16;
+  static constexpr int kStoreWriters = 8;
+  static constexpr int kStoreReaders = 4;
 
   ServiceCore(std::unique_ptr<storage::JourneyStore> opened,
               std::shared_ptr<AccessControl> access_control, const CoreOptions& core_options)
@@ -80,6 +82,13 @@ struct ServiceCore {
         places(core_options.limits),
         queue(store.get(), QueueOptions(metrics.get())),
         pool(core_options.workers) {}
+  ~ServiceCore() {
+    store_writes.Stop();
+    store_reads.Stop();
+    pool.Stop();
+  }
+  ServiceCore(const ServiceCore&) = delete;
+  ServiceCore& operator=(const ServiceCore&) = delete;
 
   RecordingContext recording(const DecodeLimits& limits) { return {&catalog, &queue, limits}; }
 
@@ -105,6 +114,11 @@ struct ServiceCore {
   StreamRegistry streams;
   // What may take long, so that robots do not wait for it: one at a time.
   WorkerPool long_work{1, kMaxLongWork};
+  // What waits for the store and computes little, so that neither robots wait for a database that
+  // is away, nor this for frames. A robot that goes home reads only.
+  WorkerPool store_writes{kStoreWriters};
+  WorkerPool store_reads{kStoreReaders};
+  // What computes.
   WorkerPool pool;
 };
 

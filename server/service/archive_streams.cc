@@ -50,7 +50,8 @@ absl::Status ImportStream::Take(const v1::ImportJourneyRequest& request) {
       return FieldError("name", "must come once, in the first message");
     }
     name_ = request.name();
-    HOMING_RETURN_IF_ERROR(ParseJourneyName(name_, "name").status());
+    HOMING_ASSIGN_OR_RETURN(const JourneyName name, ParseJourneyName(name_, "name"));
+    HOMING_RETURN_IF_ERROR(CheckNewJourney(name, "name", "name"));
     // Writing is authorised by the name alone: nothing is looked up.
     return call_.Authorize(name_);
   }
@@ -84,7 +85,7 @@ void ImportStream::OnReadDone(bool ok) {
     return;
   }
   if (!ok) {
-    if (!core_->pool.TryRun([self = self_] { self->Complete(); })) {
+    if (!core_->store_writes.TryRun([self = self_] { self->Complete(); })) {
       FinishWith(BusyError());
     }
     return;

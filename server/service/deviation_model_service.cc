@@ -57,7 +57,8 @@ grpc::ServerUnaryReactor* DeviationModelServiceHandler::GetDeviationModel(
                                 core->models.Get(request->name()));
         *response = EncodeModel(model);
         return absl::OkStatus();
-      });
+      },
+      &core_->store_reads);
 }
 
 grpc::ServerUnaryReactor* DeviationModelServiceHandler::ListDeviationModels(
@@ -67,7 +68,8 @@ grpc::ServerUnaryReactor* DeviationModelServiceHandler::ListDeviationModels(
       core_, context, Rpc::kListDeviationModels, "",
       [core = core_, request, response](const JourneyFilter& /*all*/) -> absl::Status {
         return ListModelPage(*request, &core->models, response);
-      });
+      },
+      &core_->store_reads);
 }
 
 }  // namespace homing::server

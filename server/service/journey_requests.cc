@@ -90,10 +90,11 @@ absl::StatusOr<storage::JourneyRecord> DecodeCreateJourney(const v1::CreateJourn
                                                            std::int64_t now_ns) {
   HOMING_ASSIGN_OR_RETURN(const std::string robot,
                           ParseRobotName(request.parent(), "parent", false));
-  HOMING_RETURN_IF_ERROR(CheckId(request.journey_id(), "journey_id"));
+  const JourneyName name{robot, request.journey_id()};
+  HOMING_RETURN_IF_ERROR(CheckNewJourney(name, "parent", "journey_id"));
   HOMING_RETURN_IF_ERROR(CheckWriterId(request.writer_id(), "writer_id"));
   storage::JourneyRecord record;
-  record.name = JourneyName{robot, request.journey_id()}.ToString();
+  record.name = name.ToString();
   record.writer_id = request.writer_id();
   record.create_time_ns = now_ns;
   HOMING_ASSIGN_OR_RETURN(record.readers,

@@ -22,7 +22,8 @@ grpc::ServerUnaryReactor* JourneyServiceHandler::CreateJourney(
         HOMING_ASSIGN_OR_RETURN(const storage::JourneyRecord made, core->catalog.Create(wanted));
         *response = EncodeJourneyRecord(made);
         return absl::OkStatus();
-      });
+      },
+      &core_->store_writes);
 }
 
 grpc::ServerUnaryReactor* JourneyServiceHandler::GetJourney(grpc::CallbackServerContext* context,
@@ -36,27 +37,31 @@ grpc::ServerUnaryReactor* JourneyServiceHandler::GetJourney(grpc::CallbackServer
                                 core->catalog.Get(name.ToString()));
         *response = EncodeJourneyRecord(record);
         return absl::OkStatus();
-      });
+      },
+      &core_->store_reads);
 }
 
 grpc::ServerUnaryReactor* JourneyServiceHandler::ListJourneys(
     grpc::CallbackServerContext* context, const v1::ListJourneysRequest* request,
     v1::ListJourneysResponse* response) {
-  return ServeUnary(core_, context, Rpc::kListJourneys, request->parent(),
-                    [core = core_, request, response](const JourneyFilter& filter) -> absl::Status {
-                      return ListJourneyPage(*request, &core->catalog, filter, response);
-                    });
+  return ServeUnary(
+      core_, context, Rpc::kListJourneys, request->parent(),
+      [core = core_, request, response](const JourneyFilter& filter) -> absl::Status {
+        return ListJourneyPage(*request, &core->catalog, filter, response);
+      },
+      &core_->store_reads);
 }
 
 grpc::ServerUnaryReactor* JourneyServiceHandler::DeleteJourney(
     grpc::CallbackServerContext* context, const v1::DeleteJourneyRequest* request,
     v1::DeleteJourneyResponse* /*response*/) {
-  return ServeUnary(core_, context, Rpc::kDeleteJourney, request->name(),
-                    [core = core_, request](const JourneyFilter& /*all*/) -> absl::Status {
-                      HOMING_ASSIGN_OR_RETURN(const JourneyName name,
-                                              ParseJourneyName(request->name(), "name"));
-                      return core->catalog.Delete(name.ToString());
-                    });
+  return ServeUnary(
+      core_, context, Rpc::kDeleteJourney, request->name(),
+      [core = core_, request](const JourneyFilter& /*all*/) -> absl::Status {
+        HOMING_ASSIGN_OR_RETURN(const JourneyName name, ParseJourneyName(request->name(), "name"));
+        return core->catalog.Delete(name.ToString());
+      },
+      &core_->store_writes);
 }
 
 grpc::ServerUnaryReactor* JourneyServiceHandler::FinishJourney(
@@ -72,7 +77,8 @@ grpc::ServerUnaryReactor* JourneyServiceHandler::FinishJourney(
                                                      request->force(), core->options.clock()));
         *response->mutable_journey() = EncodeJourneyRecord(record);
         return absl::OkStatus();
-      });
+      },
+      &core_->store_writes);
 }
 
 grpc::ServerUnaryReactor* JourneyServiceHandler::SetReaders(grpc::CallbackServerContext* context,
@@ -87,7 +93,8 @@ grpc::ServerUnaryReactor* JourneyServiceHandler::SetReaders(grpc::CallbackServer
                                 core->catalog.SetReaders(name.ToString(), readers));
         *response = EncodeJourneyRecord(record);
         return absl::OkStatus();
-      });
+      },
+      &core_->store_writes);
 }
 
 grpc::ServerUnaryReactor* JourneyServiceHandler::ListLandmarks(
@@ -97,7 +104,8 @@ grpc::ServerUnaryReactor* JourneyServiceHandler::ListLandmarks(
       core_, context, Rpc::kListLandmarks, request->parent(),
       [core = core_, request, response](const JourneyFilter& /*all*/) -> absl::Status {
         return ListLandmarkPage(*request, &core->catalog, response);
-      });
+      },
+      &core_->store_reads);
 }
 
 grpc::ServerUnaryReactor* JourneyServiceHandler::AnalyzeAliasing(
@@ -119,7 +127,8 @@ grpc::ServerUnaryReactor* JourneyServiceHandler::DescribeRoute(
       core_, context, Rpc::kDescribeRoute, request->name(),
       [core = core_, request, response](const JourneyFilter& /*all*/) -> absl::Status {
         return FillRouteDescription(*request, &core->catalog, response);
-      });
+      },
+      &core_->store_reads);
 }
 
 grpc::ServerBidiReactor<v1::RecordJourneyRequest, v1::RecordJourneyResponse>*

@@ -13,7 +13,7 @@ namespace homing::server {
 class LocalizeStream final : public BidiStream<v1::LocalizeRequest, v1::LocalizeResponse> {
  public:
   LocalizeStream(ServiceCore* core, grpc::CallbackServerContext* context)
-      : BidiStream(core, context, Rpc::kLocalize) {}
+      : BidiStream(core, context, Rpc::kLocalize, &core->store_reads) {}
 
  protected:
   absl::Status Handle(const v1::LocalizeRequest& request) override;

@@ -14,7 +14,7 @@ namespace homing::server {
 class RecordStream final : public BidiStream<v1::RecordJourneyRequest, v1::RecordJourneyResponse> {
  public:
   RecordStream(ServiceCore* core, grpc::CallbackServerContext* context)
-      : BidiStream(core, context, Rpc::kRecordJourney) {}
+      : BidiStream(core, context, Rpc::kRecordJourney, &core->store_writes) {}
 
  protected:
   absl::Status Handle(const v1::RecordJourneyRequest& request) override;

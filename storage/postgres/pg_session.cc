@@ -57,7 +57,11 @@ absl::Status PgDatabase::CheckTimeline(std::int64_t timeline) {
 absl::StatusOr<std::unique_ptr<PgConnection>> PgPool::Take(Deadline deadline) {
   {
     MutexLock lock(mutex_);
-    while (free_.empty() && unopened_ == 0) given_back_.Wait(mutex_);
+    while (free_.empty() && unopened_ == 0) {
+      if (!given_back_.WaitUntil(mutex_, deadline)) {
+        return absl::UnavailableError("store: all connections to the database are in use");
+      }
+    }
     if (!free_.empty()) {
       std::unique_ptr<PgConnection> connection = std::move(free_.back());
       free_.pop_back();
@@ -80,27 +84,37 @@ void PgPool::GiveBack(std::unique_ptr<PgConnection> connection) {
   given_back_.NotifyOne();
 }
 
-absl::Status PgPool::ReadOnce(const Body& body, bool* is_lost) {
-  const Deadline deadline = After(kReadTime);
+absl::Status PgPool::Use(const Body& body, Deadline deadline, bool* is_lost) {
+  *is_lost = true;
   HOMING_ASSIGN_OR_RETURN(std::unique_ptr<PgConnection> connection, Take(deadline));
-  absl::Status status =
-      connection->Execute("BEGIN ISOLATION LEVEL REPEATABLE READ READ ONLY", deadline);
-  if (status.ok()) {
-    status = body(*connection, deadline);
-    const absl::Status ended = connection->Execute("COMMIT", deadline);
-    if (status.ok()) status = ended;
-  }
+  const absl::Status status = body(*connection, deadline);
   *is_lost = connection->is_lost();
   GiveBack(std::move(connection));
   return status;
 }
 
 absl::Status PgPool::Read(const Body& body) {
+  return ReadOnce([&](PgConnection& connection, Deadline deadline) {
+    HOMING_RETURN_IF_ERROR(
+        connection.Execute("BEGIN ISOLATION LEVEL REPEATABLE READ READ ONLY", deadline));
+    const absl::Status status = body(connection, deadline);
+    const absl::Status ended = connection.Execute("COMMIT", deadline);
+    return status.ok() ? ended : status;
+  });
+}
+
+absl::Status PgPool::ReadOnce(const Body& body) {
+  bool is_connected = false;
   bool is_lost = false;
-  absl::Status status = ReadOnce(body, &is_lost);
+  const Body noted = [&](PgConnection& connection, Deadline deadline) {
+    is_connected = true;
+    return body(connection, deadline);
+  };
+  absl::Status status = Use(noted, After(kReadTime), &is_lost);
   // The other kept connections may be lost too: they were made before the same restart.
-  for (int tries = 0; !status.ok() && is_lost && tries < 5; ++tries) {
-    status = ReadOnce(body, &is_lost);
+  for (int tries = 0; !status.ok() && is_lost && is_connected && tries < 5; ++tries) {
+    is_connected = false;
+    status = Use(noted, After(kReadTime), &is_lost);
   }
   return status;
 }

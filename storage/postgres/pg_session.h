@@ -47,9 +47,12 @@ class PgPool {
   // Runs `body` in one read-only transaction that sees one moment; again on a new connection if the
   // first was lost.
   absl::Status Read(const Body& body);
+  // The same for a `body` of one statement, which needs no transaction around it.
+  absl::Status ReadOnce(const Body& body);
+  // Runs `body` once, outside of a transaction. OUT: there is no connection, or it was lost.
+  absl::Status Use(const Body& body, Deadline deadline, bool* is_lost);
 
  private:
-  absl::Status ReadOnce(const Body& body, bool* is_lost);
   absl::StatusOr<std::unique_ptr<PgConnection>> Take(Deadline deadline);
   void GiveBack(std::unique_ptr<PgConnection> connection);
 

@@ -22,21 +22,18 @@ absl::StatusOr<PgConnection*> PgWriter::Connection(Deadline deadline) {
   return connection_.get();
 }
 
-absl::Status PgWriter::WriteOnce(Scope scope, const Body& body, Deadline deadline) {
-  HOMING_ASSIGN_OR_RETURN(PgConnection* const connection, Connection(deadline));
-  if (scope == Scope::kOneStatement) return body(*connection, deadline);
-  HOMING_RETURN_IF_ERROR(connection->Execute("BEGIN", deadline));
-  const absl::Status status = body(*connection, deadline);
-  const absl::Status ended = connection->Execute(status.ok() ? "COMMIT" : "ROLLBACK", deadline);
-  return status.ok() ? ended : status;
-}
-
 absl::Status PgWriter::Write(Scope scope, const Body& body) {
-  const MutexLock lock(mutex_);
+  const Body in_transaction = [&](PgConnection& connection, Deadline deadline) {
+    HOMING_RETURN_IF_ERROR(connection.Execute("BEGIN", deadline));
+    const absl::Status status = body(connection, deadline);
+    const absl::Status ended = connection.Execute(status.ok() ? "COMMIT" : "ROLLBACK", deadline);
+    return status.ok() ? ended : status;
+  };
   const Deadline deadline = After(kWriteTime);
   while (true) {
-    absl::Status status = WriteOnce(scope, body, deadline);
-    const bool is_lost = connection_ == nullptr || connection_->is_lost();
+    bool is_lost = false;
+    absl::Status status =
+        changes_.Use(scope == Scope::kOneStatement ? body : in_transaction, deadline, &is_lost);
     const bool is_again = absl::IsUnavailable(status) && (is_lost || IsConflict(status));
     if (!is_again || After(kRetryPause) > deadline) return status;
     std::this_thread::sleep_for(kRetryPause);
@@ -45,14 +42,28 @@ absl::Status PgWriter::Write(Scope scope, const Body& body) {
 
 std::vector<absl::Status> PgWriter::Append(const std::vector<JourneyAppend>& appends) {
   const MutexLock lock(mutex_);
+  ApplyForgotten();
   const Writer writer = [this](Deadline deadline)
                             HOMING_REQUIRES(mutex_) { return Connection(deadline); };
   return appends_.Append(appends, writer, After(kWriteTime));
 }
 
 void PgWriter::Forget(const std::string& name) {
-  const MutexLock lock(mutex_);
-  appends_.Forget(name);
+  {
+    const MutexLock lock(forget_mutex_);
+    forgotten_.push_back(name);
+  }
+  // Otherwise the next append does it.
+  if (mutex_.TryLock()) {
+    ApplyForgotten();
+    mutex_.Unlock();
+  }
+}
+
+void PgWriter::ApplyForgotten() {
+  const MutexLock lock(forget_mutex_);
+  for (const std::string& name : forgotten_) appends_.Forget(name);
+  forgotten_.clear();
 }
 
 }  // namespace homing::storage::postgres

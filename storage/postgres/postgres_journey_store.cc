@@ -78,12 +78,13 @@ absl::Status PostgresJourneyStore::Write(PgWriter::Scope scope, const Body& body
 }
 
 template <typename Result, typename Query>
-absl::StatusOr<Result> PostgresJourneyStore::ReadOne(Query query) {
+absl::StatusOr<Result> PostgresJourneyStore::Read(PgWriter::Scope scope, Query query) {
   absl::StatusOr<Result> result = absl::InternalError("store: nothing read");
-  HOMING_RETURN_IF_ERROR(readers_.Read([&](PgConnection& connection, Deadline deadline) {
+  const Body body = [&](PgConnection& connection, Deadline deadline) {
     result = query(connection, deadline);
     return result.status();
-  }));
+  };
+  HOMING_RETURN_IF_ERROR(scope == kOneStatement ? readers_.ReadOnce(body) : readers_.Read(body));
   return result;
 }
 
@@ -106,16 +107,17 @@ absl::Status PostgresJourneyStore::CreateJourney(const JourneyRecord& record) {
 }
 
 absl::StatusOr<JourneyRecord> PostgresJourneyStore::GetJourney(const std::string& name) {
-  return ReadOne<JourneyRecord>([&](PgConnection& connection, Deadline deadline) {
+  return Read<JourneyRecord>(kOneStatement, [&](PgConnection& connection, Deadline deadline) {
     return FindJourney(connection, name, deadline);
   });
 }
 
 absl::StatusOr<std::vector<JourneyRecord>> PostgresJourneyStore::ListJourneys(
     const std::string& prefix, const std::string& after, int limit) {
-  return ReadOne<std::vector<JourneyRecord>>([&](PgConnection& connection, Deadline deadline) {
-    return ListJourneyRows(connection, prefix, after, limit, deadline);
-  });
+  return Read<std::vector<JourneyRecord>>(
+      kOneStatement, [&](PgConnection& connection, Deadline deadline) {
+        return ListJourneyRows(connection, prefix, after, limit, deadline);
+      });
 }
 
 absl::Status PostgresJourneyStore::DeleteJourney(const std::string& name) {
@@ -157,7 +159,7 @@ absl::StatusOr<AcquiredJourney> PostgresJourneyStore::AcquireJourney(const std::
 
 absl::Status PostgresJourneyStore::CheckLease(const std::string& name,
                                               const std::string& writer_id) {
-  return readers_.Read([&](PgConnection& connection, Deadline deadline) {
+  return readers_.ReadOnce([&](PgConnection& connection, Deadline deadline) {
     return CheckLeaseRow(connection, name, writer_id, server_id_, deadline);
   });
 }
@@ -171,18 +173,20 @@ std::vector<absl::Status> PostgresJourneyStore::AppendSteps(
 }
 
 absl::StatusOr<JourneyMap> PostgresJourneyStore::LoadMap(const std::string& name) {
-  return ReadOne<JourneyMap>([&](PgConnection& connection,
-                                 Deadline deadline) -> absl::StatusOr<JourneyMap> {
-    HOMING_ASSIGN_OR_RETURN(const JourneyRecord record, FindJourney(connection, name, deadline));
-    HOMING_ASSIGN_OR_RETURN(const PgRows rows,
-                            SelectSteps(connection, JourneyId(name), 0, deadline));
-    return AssembleMap(record, ReaderOf(rows));
-  });
+  return Read<JourneyMap>(
+      kTransaction, [&](PgConnection& connection, Deadline deadline) -> absl::StatusOr<JourneyMap> {
+        HOMING_ASSIGN_OR_RETURN(const JourneyRecord record,
+                                FindJourney(connection, name, deadline));
+        HOMING_ASSIGN_OR_RETURN(const PgRows rows,
+                                SelectSteps(connection, JourneyId(name), 0, deadline));
+        return AssembleMap(record, ReaderOf(rows));
+      });
 }
 
 absl::StatusOr<JourneyGrowth> PostgresJourneyStore::LoadSteps(const std::string& name,
                                                               std::int64_t first) {
-  return ReadOne<JourneyGrowth>(
+  return Read<JourneyGrowth>(
+      kTransaction,
       [&](PgConnection& connection, Deadline deadline) -> absl::StatusOr<JourneyGrowth> {
         JourneyGrowth growth;
         HOMING_ASSIGN_OR_RETURN(growth.record, FindJourney(connection, name, deadline));
@@ -195,22 +199,25 @@ absl::StatusOr<JourneyGrowth> PostgresJourneyStore::LoadSteps(const std::string&
 
 absl::StatusOr<std::vector<JourneyMark>> PostgresJourneyStore::LoadMarks(
     const std::vector<std::string>& names) {
-  return ReadOne<std::vector<JourneyMark>>([&](PgConnection& connection, Deadline deadline) {
-    return LoadJourneyMarks(connection, names, deadline);
-  });
+  return Read<std::vector<JourneyMark>>(kOneStatement,
+                                        [&](PgConnection& connection, Deadline deadline) {
+                                          return LoadJourneyMarks(connection, names, deadline);
+                                        });
 }
 
 absl::StatusOr<JourneyTail> PostgresJourneyStore::LoadTail(const std::string& name) {
-  return ReadOne<JourneyTail>([&](PgConnection& connection,
-                                  Deadline deadline) -> absl::StatusOr<JourneyTail> {
-    HOMING_ASSIGN_OR_RETURN(const JourneyRecord record, FindJourney(connection, name, deadline));
-    const std::int64_t id = JourneyId(name);
-    HOMING_ASSIGN_OR_RETURN(const std::int64_t last,
-                            FindLastSequence(connection, id, record.step_count, deadline));
-    const std::int64_t first = FirstTailStep(record.settings, record.step_count);
-    HOMING_ASSIGN_OR_RETURN(const PgRows rows, SelectSteps(connection, id, first, deadline));
-    return AssembleTail(record, last, ReaderOf(rows));
-  });
+  return Read<JourneyTail>(
+      kTransaction,
+      [&](PgConnection& connection, Deadline deadline) -> absl::StatusOr<JourneyTail> {
+        HOMING_ASSIGN_OR_RETURN(const JourneyRecord record,
+                                FindJourney(connection, name, deadline));
+        const std::int64_t id = JourneyId(name);
+        HOMING_ASSIGN_OR_RETURN(const std::int64_t last,
+                                FindLastSequence(connection, id, record.step_count, deadline));
+        const std::int64_t first = FirstTailStep(record.settings, record.step_count);
+        HOMING_ASSIGN_OR_RETURN(const PgRows rows, SelectSteps(connection, id, first, deadline));
+        return AssembleTail(record, last, ReaderOf(rows));
+      });
 }
 
 absl::Status PostgresJourneyStore::ImportJourney(const JourneyRecord& record,
@@ -244,16 +251,17 @@ absl::Status PostgresJourneyStore::CreateModel(const StoredModel& model) {
 }
 
 absl::StatusOr<StoredModel> PostgresJourneyStore::GetModel(const std::string& name) {
-  return ReadOne<StoredModel>([&](PgConnection& connection, Deadline deadline) {
+  return Read<StoredModel>(kOneStatement, [&](PgConnection& connection, Deadline deadline) {
     return FindModel(connection, name, deadline);
   });
 }
 
 absl::StatusOr<std::vector<StoredModel>> PostgresJourneyStore::ListModels(const std::string& after,
                                                                           int limit) {
-  return ReadOne<std::vector<StoredModel>>([&](PgConnection& connection, Deadline deadline) {
-    return ListModelRows(connection, after, limit, deadline);
-  });
+  return Read<std::vector<StoredModel>>(kOneStatement,
+                                        [&](PgConnection& connection, Deadline deadline) {
+                                          return ListModelRows(connection, after, limit, deadline);
+                                        });
 }
 
 }  // namespace postgres

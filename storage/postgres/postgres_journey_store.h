@@ -1,4 +1,4 @@
-// The store on PostgreSQL, which many servers share: one connection writes, others read.
+// The store on PostgreSQL, which many servers share.
 #ifndef STORAGE_POSTGRES_POSTGRES_JOURNEY_STORE_H_
 #define STORAGE_POSTGRES_POSTGRES_JOURNEY_STORE_H_
 
@@ -55,9 +55,9 @@ class PostgresJourneyStore final : public JourneyStore {
   absl::Status Prepare();
   // As PgWriter::Write.
   absl::Status Write(PgWriter::Scope scope, const Body& body);
-  // The result of `query` in one read transaction.
+  // The result of `query`, of one statement or in one read transaction.
   template <typename Result, typename Query>
-  absl::StatusOr<Result> ReadOne(Query query);
+  absl::StatusOr<Result> Read(PgWriter::Scope scope, Query query);
 
   PgDatabase database_;
   // Of this run of this server.

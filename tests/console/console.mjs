@@ -96,8 +96,7 @@ try {
     ['match/' + journey + '?a=20&b=22', 'match'], ['models', 'models'], ['server', 'server']];
   for (const [hash, name] of views) {
     await visit(hash);
-    for (const theme of ['light', 'dark']) await shot(name, theme, false);
-    await shot(name, 'light', true);
+    for (const theme of ['light', 'dark']) for (const phone of [false, true]) await shot(name, theme, phone);
   }
   check('no error in the browser', problems.length === 0, problems.join('; '));
 

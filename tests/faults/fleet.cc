@@ -15,7 +15,8 @@ int RobotOf(const std::string& journey) {
 }  // namespace
 
 Fleet::Fleet(const RobotOptions& options, int robots, Ledger* ledger, int first_journey,
-             const std::function<void(int robot)>& on_answer)
+             const std::function<void(int robot)>& on_answer,
+             const std::function<void(int robot, const std::string&)>& log)
     : ledger_(ledger) {
   for (int robot = 0; robot < robots; ++robot) {
     RobotOptions own = options;
@@ -24,6 +25,7 @@ Fleet::Fleet(const RobotOptions& options, int robots, Ledger* ledger, int first_
       on_answer(robot);
       next(time);
     };
+    own.log = [robot, log](const std::string& text) { log(robot, text); };
     threads_.emplace_back([this, own, first_journey] { Run(own, first_journey); });
   }
 }

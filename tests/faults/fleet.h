@@ -19,10 +19,11 @@ namespace homing::faults {
 class Fleet {
  public:
   // Each robot numbers its journeys from `first_journey` on, and reports its answers to
-  // `on_answer`.
+  // `on_answer` and its other steps to `log`.
   Fleet(
       const RobotOptions& options, int robots, Ledger* ledger, int first_journey = 0,
-      const std::function<void(int robot)>& on_answer = [](int) {});
+      const std::function<void(int robot)>& on_answer = [](int) {},
+      const std::function<void(int robot, const std::string&)>& log = [](int, auto&) {});
   // As Finish.
   ~Fleet() { Finish(); }
 

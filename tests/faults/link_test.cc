@@ -5,6 +5,7 @@
 #include <random>
 #include <thread>
 
+#include "client/homing_client.h"
 #include "tests/faults/robot.h"
 #include "tests/server/server_fixture.h"
 #include "tests/support/status_matchers.h"
@@ -101,6 +102,42 @@ TEST_F(LinkTest, ALinkThatIsCutAgainAndAgainOnlyTakesLonger) {
   cutter.join();
   EXPECT_GT(link_.connections(), 1);
   EXPECT_TRUE(Export("robots/cut/journeys/0") == expected);
+}
+
+TEST_F(LinkTest, ARobotThatGoesHomeKnowsItsPlaceAfterACut) {
+  robot_.observations = 200;
+  robot_.pace = std::chrono::milliseconds(2);
+  Undisturbed();
+  const auto answers = [this](const std::string& address, std::int64_t cut_at) {
+    client::ConnectionOptions connecting;
+    connecting.address = address;
+    const auto connection = client::Connection::Open(connecting).value();
+    client::LocalizingOptions options;
+    options.config = server::LocalizeOn("robots/calm/journeys/0");
+    std::vector<v1::LocalizeResponse> all;
+    EXPECT_THAT(client::HomingClient(&connection)
+                    .Localize(options, RouteOf(robot_).get(),
+                              [&](const v1::LocalizeResponse& answer) {
+                                all.push_back(answer);
+                                if (answer.sequence() == cut_at) link_.CutAll();
+                                return absl::OkStatus();
+                              }),
+                IsOk());
+    return all;
+  };
+  const auto whole = answers(server_->address(), -1);
+  for (const std::int64_t cut : {30, 77, 140}) {
+    const auto cut_off = answers(link_.address(), cut);
+    ASSERT_EQ(cut_off.size(), whole.size());
+    int unlike = 0;
+    for (std::size_t i = 0; i < whole.size(); ++i) {
+      unlike += cut_off[i].outcome() != whole[i].outcome();
+      EXPECT_NEAR(static_cast<double>(cut_off[i].step()), static_cast<double>(whole[i].step()), 3)
+          << "cut after " << cut << ", at " << i;
+    }
+    EXPECT_LE(unlike, 2) << cut;
+    EXPECT_EQ(cut_off.back().outcome(), v1::OUTCOME_MATCH);
+  }
 }
 
 // The robot drove out of reach: the server still believes in the old stream.

@@ -111,8 +111,9 @@ absl::Status RecordOne(const RobotOptions& options, const std::string& journey, 
   create.set_writer_id(WriterOf(options));
   HOMING_RETURN_IF_ERROR(journeys.Create(create).status());
   ledger->Created(journey, options.sends_frames());
+  options.log("created");
   Timed route(RouteOf(options));
-  client::RecordingClient recording(&connection, {journey, WriterOf(options)});
+  client::RecordingClient recording(&connection, {journey, WriterOf(options)}, options.log);
   HOMING_RETURN_IF_ERROR(recording
                              .Record(&route,
                                      [&](const v1::RecordJourneyResponse& answer) {
@@ -121,15 +122,17 @@ absl::Status RecordOne(const RobotOptions& options, const std::string& journey, 
                                        return absl::OkStatus();
                                      })
                              .status());
+  options.log("recorded");
   HOMING_RETURN_IF_ERROR(journeys.Finish(journey, WriterOf(options)).status());
   ledger->Finished(journey);
+  options.log("finished");
   return absl::OkStatus();
 }
 
 absl::StatusOr<double> LocalizeOn(const RobotOptions& options, const std::string& journey) {
   HOMING_ASSIGN_OR_RETURN(const client::Connection connection,
                           Connect(options.address, options.retry_for));
-  client::HomingClient homing(&connection);
+  client::HomingClient homing(&connection, options.log);
   client::LocalizingOptions localizing;
   localizing.config.set_journey(journey);
   localizing.config.set_travel(v1::TRAVEL_SAME);

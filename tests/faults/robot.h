@@ -30,6 +30,8 @@ struct RobotOptions {
   std::chrono::milliseconds retry_for{120'000};
   // Called with each observation answered, and the time since it was handed over.
   std::function<void(std::chrono::microseconds)> on_answer = [](auto) {};
+  // Called with each step that the robot or its client takes between answers.
+  std::function<void(const std::string&)> log = [](auto&) {};
 };
 
 // The observations of a robot's route: the same each time.

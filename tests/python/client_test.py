@@ -1,6 +1,7 @@
 """The client against a server: HOMING_SERVER_PROGRAM names it."""
 
 import asyncio
+import json
 import os
 import pathlib
 import signal
@@ -74,6 +75,30 @@ class ClientTest(unittest.TestCase):
             with self.assertRaises(homing.HomingError) as caught:
                 client.get(JOURNEY)
             self.assertEqual(caught.exception.code, "NOT_FOUND")
+
+    def test_names_the_trace_of_its_calls(self):
+        self.flags = ["--log-format", "json"]
+        self.start()
+        trace = "0af7651916cd43dd8448eb211c80319c"
+        server = homing.Server(address=self.address,
+                               traceparent=f"00-{trace}-b7ad6b7169203331-01")
+        with homing.Client(server) as client:
+            list(client.record(JOURNEY, frames(5)))
+
+        async def localise():
+            async with homing.AsyncClient(server) as client:
+                return [one async for one in client.localize(JOURNEY, frames(3))]
+
+        asyncio.run(localise())
+        self.stop()
+        log = pathlib.Path(self.path("log")).read_text(encoding="utf-8")
+        lines = [json.loads(line) for line in log.splitlines() if line.startswith("{")]
+        calls = [line for line in lines
+                 if line.get("trace_id") == trace and "call: " in line["message"]]
+        for method in ("CreateJourney", "RecordJourney", "FinishJourney", "Localize"):
+            self.assertTrue(any(method in line["message"] for line in calls), method)
+        # Each call is a span.
+        self.assertEqual(len({line["span_id"] for line in calls}), len(calls))
 
     def killing(self, at):
         """Frames, during which the server is killed and starts again."""

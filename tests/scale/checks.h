@@ -18,8 +18,9 @@ struct Programs {
 
 // Robots record and localise through three servers on one database, while servers are killed and
 // paused and the database is killed and its replica promoted, `rounds` times. Compares all maps
-// with those of an undisturbed run on SQLite. Judges the longest gaps too if `judges_gaps`.
-void CheckRounds(const Programs& programs, int rounds, bool judges_gaps, faults::Figures* figures);
+// with those of an undisturbed run on SQLite. The longest gaps may be `tolerance` times their
+// bounds.
+void CheckRounds(const Programs& programs, int rounds, double tolerance, faults::Figures* figures);
 
 // Durable observations a second with SQLite, with one, two and three servers on PostgreSQL, and
 // with no server at all. `seconds` each.

@@ -1,6 +1,6 @@
 #!/bin/sh
 # Many servers on one PostgreSQL, a line each: name figure bound ok|short. Exit code 1 if any is short.
-# usage: sh tests/scale/run.sh [--quick] [--untimed] [--only rounds|throughput] [--rounds N]
+# usage: sh tests/scale/run.sh [--quick] [--loaded] [--only rounds|throughput] [--rounds N]
 # Installs PostgreSQL 15 from Debian and runs it in a temporary folder. HOMING_PRESET (default dev) names the CMake
 # preset; the figures of docs/scaling.md are those of the preset release.
 set -eu

@@ -6,6 +6,7 @@
 
 #include "homing/image/frame.h"
 #include "proto/wire/observation_conversion.h"
+#include "storage/connection.h"
 #include "tests/server/server_fixture.h"
 #include "tests/support/status_matchers.h"
 
@@ -25,6 +26,15 @@ class WorkerTest : public ServerTest {
     const auto begin = std::chrono::steady_clock::now();
     call();
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  }
+  // A query without views: the one worker refuses it as soon as it is free.
+  void CallWorker() {
+    grpc::ClientContext context;
+    v1::MatchLandmarksRequest request;
+    request.set_journey(kJourney);
+    v1::MatchLandmarksResponse response;
+    EXPECT_THAT(homing_->MatchLandmarks(&context, request, &response),
+                GrpcStatusIs(kInvalid, HasSubstr("")));
   }
 };
 
@@ -73,7 +83,7 @@ TEST_F(WorkerTest, AFramePairOfAClientThatDoesNotWaitFreesItsWorker) {
   const auto part = std::chrono::milliseconds(static_cast<int>(250 * whole));
   EXPECT_THAT(match(part), GrpcStatusIs(grpc::StatusCode::DEADLINE_EXCEEDED, HasSubstr("")));
   // The one worker is free.
-  EXPECT_LT(SecondsOf([&] { Get(); }), 0.4 * whole);
+  EXPECT_LT(SecondsOf([&] { CallWorker(); }), 0.4 * whole);
 }
 
 TEST_F(WorkerTest, TheAnalysisOfARouteThatRepeatsItselfHoldsUpNobody) {
@@ -90,7 +100,35 @@ TEST_F(WorkerTest, TheAnalysisOfARouteThatRepeatsItselfHoldsUpNobody) {
   const double whole = SecondsOf(analyze);
   const auto analysis = std::async(std::launch::async, analyze);
   std::this_thread::sleep_for(std::chrono::duration<double>(0.1 * whole));
-  EXPECT_LT(SecondsOf([&] { Get(); }), 0.3 * whole);
+  EXPECT_LT(SecondsOf([&] { CallWorker(); }), 0.3 * whole);
+}
+
+TEST_F(WorkerTest, RobotsGoHomeWhileTheStoreAcceptsNoWrites) {
+  RecordFlow(0, 30);
+  Localizing home(homing_.get(), LocalizeOn(kJourney));
+  home.Localize(test::FlowAt(0));
+  const auto locking = storage::Connection::Open(
+      folder_.File("homing.db"), storage::Connection::Access::kReadWrite, /*busy_timeout_ms=*/1000);
+  ASSERT_THAT(locking, IsOk());
+  std::vector<std::future<grpc::Status>> creations;
+  const auto locked = (*locking)->Write([&] {
+    for (const char* journey : {"a", "b", "c"}) {
+      creations.push_back(
+          std::async(std::launch::async, [this, journey] { return Create(journey); }));
+    }
+    Recording claim(journeys_.get(), kJourney);
+    std::this_thread::sleep_for(std::chrono::milliseconds(300));
+    EXPECT_LT(SecondsOf([&] {
+                EXPECT_EQ(home.Localize(test::FlowAt(1)).sequence(), 1);
+                Localizing another(homing_.get(), LocalizeOn(kJourney));
+                EXPECT_EQ(another.Localize(test::FlowAt(0)).sequence(), 0);
+                Get();
+              }),
+              1.5);
+    return absl::OkStatus();
+  });
+  EXPECT_THAT(locked, IsOk());
+  for (auto& creation : creations) EXPECT_THAT(creation.get(), IsGrpcOk());
 }
 
 TEST_F(WorkerTest, AnAnalysisThatNobodyWaitsForEnds) {

@@ -84,6 +84,22 @@ TEST_F(FullDiskTest, AJourneyCanBeDeletedAndRecordingGoesOn) {
   EXPECT_FALSE(std::filesystem::exists(reserve_));
 }
 
+TEST_F(FullDiskTest, AJourneyLargerThanTheReserveCanBeDeleted) {
+  auto store = OpenOrDie(url_);
+  StepMaker maker;
+  ASSERT_THAT(store->CreateJourney(Record(kJourney)), IsOk());
+  absl::Status status;
+  while (status.ok()) status = AppendHundred(*store, kJourney, &maker);
+  ASSERT_GT(std::filesystem::file_size(disk_ + "/homing.db"),
+            std::filesystem::file_size(reserve_) * 3 / 2);
+  Fill();
+  EXPECT_THAT(store->DeleteJourney(kJourney), IsOk());
+  EXPECT_THAT(store->GetJourney(kJourney), StatusIs(absl::StatusCode::kNotFound, HasSubstr("")));
+  StepMaker other;
+  ASSERT_THAT(store->CreateJourney(Record(kOther)), IsOk());
+  for (int i = 0; i < 50; ++i) ASSERT_THAT(AppendHundred(*store, kOther, &other), IsOk());
+}
+
 TEST_F(FullDiskTest, AServerThatWasKilledStartsAgain) {
   {
     auto store = OpenOrDie(url_);

@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "absl/strings/str_cat.h"
+#include "storage/postgres/pg_connection.h"
 #include "storage/postgres/pg_step_rows.h"
 #include "tests/storage/store_fixture.h"
 #include "tests/support/postgres_server.h"
@@ -215,6 +216,24 @@ TEST_F(PostgresStoreTest, ADatabaseThatDoesNotAnswerIsUnavailableInTime) {
   server_->Start();
   EXPECT_THAT(one_->ProbeWrite(), IsOk());
   EXPECT_THAT(one_->AppendSteps({Append(MakeSteps(1)[0], epoch)})[0], IsOk());
+}
+
+TEST_F(PostgresStoreTest, OtherJourneysBeginWhileAnAppendWaits) {
+  const std::int64_t epoch = one_->AcquireJourney(kJourney, "robot").value().epoch;
+  const auto soon = postgres::After(std::chrono::seconds(10));
+  const auto locking =
+      postgres::PgConnection::Open(url_, postgres::PgConnection::Access::kReadWrite, soon);
+  ASSERT_THAT(locking.value()->Execute("BEGIN; SELECT 1 FROM journeys FOR UPDATE", soon), IsOk());
+  std::atomic<bool> is_appended = false;
+  std::thread append(
+      [&] { is_appended = one_->AppendSteps({Append(MakeSteps(1)[0], epoch)})[0].ok(); });
+  std::this_thread::sleep_for(std::chrono::milliseconds(200));
+  EXPECT_THAT(one_->CreateJourney(Record("robots/r/journeys/other")), IsOk());
+  EXPECT_THAT(one_->AcquireJourney("robots/r/journeys/other", "robot"), IsOk());
+  EXPECT_FALSE(is_appended);
+  EXPECT_THAT((*locking)->Execute("COMMIT", soon), IsOk());
+  append.join();
+  EXPECT_TRUE(is_appended);
 }
 
 TEST_F(PostgresStoreTest, CommitsThatAreNotSynchronousAreRefused) {

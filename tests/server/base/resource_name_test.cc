@@ -34,6 +34,24 @@ TEST(ResourceNameTest, AnIdHasAtMost63Characters) {
               StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("1 to 63")));
 }
 
+TEST(ResourceNameTest, NewIdsDoNotBeginAsPathsOrFlagsDo) {
+  for (const char* bad : {".", "..", "...", ".hidden", "-r", "--help"}) {
+    EXPECT_THAT(CheckNewId(bad, "journey_id"),
+                StatusIs(absl::StatusCode::kInvalidArgument,
+                         HasSubstr("the first is a letter, a digit or \"_\"")))
+        << bad;
+    EXPECT_THAT(CheckNewJourney({bad, "j"}, "parent", "journey_id"),
+                StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("parent: ")));
+    EXPECT_THAT(CheckNewJourney({"r", bad}, "parent", "journey_id"),
+                StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("journey_id: ")));
+    // One of an older version can still be deleted.
+    EXPECT_THAT(ParseJourneyName(std::string("robots/r/journeys/") + bad, "name"), IsOk());
+  }
+  for (const char* good : {"a", "7", "_x", "a..b", "a-"}) {
+    EXPECT_THAT(CheckNewId(good, "id"), IsOk()) << good;
+  }
+}
+
 TEST(ResourceNameTest, TheWildcardIsAllowedInPatternsOnly) {
   EXPECT_THAT(ParseJourneyPattern("robots/-/journeys/-", "journey"), IsOk());
   EXPECT_THAT(ParseJourneyName("robots/r/journeys/-", "name"),

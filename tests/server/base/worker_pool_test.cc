@@ -60,6 +60,65 @@ TEST(StrandTest, TasksPostedDuringAnInlineTaskWaitForItsEnd) {
   EXPECT_EQ(order, (std::vector<int>{0, 1, 2}));
 }
 
+TEST(WorkerPoolTest, RunsOnTheCallersThreadOnceStopped) {
+  WorkerPool pool(1);
+  pool.Stop();
+  std::thread::id here;
+  pool.Run([&] { here = std::this_thread::get_id(); });
+  EXPECT_EQ(here, std::this_thread::get_id());
+}
+
+TEST(StrandTest, AStreamDoesNotHoldUpAnotherOneForLong) {
+  std::vector<int> order;
+  {
+    std::promise<void> release;
+    WorkerPool pool(1);
+    pool.Run([released = release.get_future().share()] { released.wait(); });
+    const auto busy = std::make_shared<Strand>(&pool);
+    const auto other = std::make_shared<Strand>(&pool);
+    for (int i = 0; i < 4; ++i) {
+      busy->Post([&order] {
+        std::this_thread::sleep_for(std::chrono::milliseconds(3));
+        order.push_back(0);
+      });
+    }
+    other->Post([&order] { order.push_back(1); });
+    release.set_value();
+  }
+  EXPECT_EQ(order, (std::vector<int>{0, 1, 0, 0, 0}));
+}
+
+TEST(StrandTest, KeepsTheOrderAcrossPools) {
+  std::vector<int> order;
+  {
+    WorkerPool first(2);
+    WorkerPool second(2);
+    const auto strand = std::make_shared<Strand>(&first);
+    for (int i = 0; i < 100; ++i) {
+      strand->PostTo(i % 3 == 0 ? &second : &first, [&order, i] { order.push_back(i); });
+    }
+    second.Stop();
+    first.Stop();
+  }
+  ASSERT_EQ(order.size(), 100U);
+  for (int i = 0; i < 100; ++i) EXPECT_EQ(order[static_cast<std::size_t>(i)], i);
+}
+
+TEST(StrandTest, ATaskThatWaitsInAnotherPoolLeavesThisOneFree) {
+  std::promise<void> release;
+  std::promise<void> ran;
+  WorkerPool waiting(1);
+  WorkerPool pool(1);
+  const auto one = std::make_shared<Strand>(&pool);
+  const auto two = std::make_shared<Strand>(&pool);
+  one->PostTo(&waiting, [released = release.get_future().share()] { released.wait(); });
+  one->Post([] {});
+  two->Post([&] { ran.set_value(); });
+  ran.get_future().wait();
+  release.set_value();
+  waiting.Stop();
+}
+
 TEST(StrandTest, RunsInOrderAndOneAtATimeOnManyThreads) {
   constexpr int kStrands = 8;
   constexpr int kTasks = 300;
