@@ -10,6 +10,7 @@
 #include "homing/flow/observation.h"
 #include "homing/journey/journey_map.h"
 #include "homing/journey/journey_settings.h"
+#include "homing/journey/see_landmarks.h"
 #include "homing/landmark/landmark_tracker.h"
 
 namespace homing {
@@ -64,8 +65,8 @@ class JourneyRecorder {
  private:
   absl::Status CheckKind(InputKind kind) const;
   absl::Status CheckGrows(std::int64_t made_by, InputKind kind) const;
-  // Adds the numbered landmarks of one camera's field to the step.
-  void AddLandmarks(Side side, const std::optional<FlowField>& field, JourneyStep& step);
+  // Adds the profile and the numbered landmarks of one camera to the step.
+  void AddLandmarks(Side side, const SeenStep& seen, JourneyStep& step);
 
   JourneySettings settings_;
   ObservationFlow flow_;

@@ -3,9 +3,7 @@
 #include "absl/strings/str_cat.h"
 #include "homing/base/range_check.h"
 #include "homing/base/status_macros.h"
-#include "homing/flow/motion.h"
 #include "homing/flow/rotation_fit.h"
-#include "homing/journey/camera_pair.h"
 
 namespace homing {
 namespace {
@@ -69,7 +67,7 @@ absl::StatusOr<Localization> Localizer::Localize(const Observation& observation,
                                                  std::span<const JourneyRef> journeys) {
   // II-B, equations (1) to (5): corners, and their flow since the reference frame.
   HOMING_ASSIGN_OR_RETURN(const auto cameras, CamerasFor(journeys));
-  HOMING_ASSIGN_OR_RETURN(ObservedFlow flow, flow_.Compute(observation, cameras));
+  HOMING_ASSIGN_OR_RETURN(const ObservedFlow flow, flow_.Compute(observation, cameras));
   flow_.FillSizes(options_.cameras);
   const bool has_flow = flow.fields[0].has_value() || flow.fields[1].has_value();
   // Own design: nothing moved enough since the reference, so the belief stays as it is.
@@ -86,19 +84,17 @@ absl::StatusOr<Localization> Localizer::Localize(const Observation& observation,
   result.sequence = observation.sequence;
   result.frame = observation.frame.value_or(observation.sequence);
   result.has_flow = has_flow;
-  // Own design: what an ideal camera, square to the direction of travel, would have seen.
-  flow = Rectify(flow, options_.cameras);
-  result.motion = ClassifyMotion(flow, options_.cameras);
   // III, Fig. 4, equations (11), (12): landmarks, by the side of the route that they are on.
-  const SeenSides seen = FindRouteLandmarks(flow, result.motion);
+  const SeenStep seen = SeeLandmarks(flow, options_.cameras, options_.travel, options_.landmark);
+  result.motion = seen.motion;
   // III, equations (13) to (15), over all stored landmarks.
-  result.matches = matcher_.Find(journeys, seen, options_.match);
+  result.matches = matcher_.Find(journeys, seen.landmarks, options_.match);
   // V, future work: where the sequence of what was seen places the robot.
-  const ObservedFlow straight = FollowPath(journeys, flow, result.motion);
-  const SeenProfiles profiles = MakeRouteProfiles(straight, result.motion);
-  result.position = filter_.Update(journeys, result.motion, seen, profiles);
-  TellPose(journeys, flow, result);
-  TellLandmark(journeys, seen, result);
+  const ObservedFlow straight = FollowPath(journeys, seen.flow, seen.motion);
+  const SeenProfiles profiles = MakeRouteProfiles(straight, seen.motion);
+  result.position = filter_.Update(journeys, seen.motion, seen.landmarks, profiles);
+  TellPose(journeys, seen.flow, result);
+  TellLandmark(journeys, seen.landmarks, result);
   last_ = result;
   last_->matches.clear();
   return result;
@@ -164,18 +160,6 @@ absl::StatusOr<std::array<Camera, 2>> Localizer::CamerasFor(
     }
   }
   return query.cameras;
-}
-
-SeenSides Localizer::FindRouteLandmarks(const ObservedFlow& flow, Motion motion) const {
-  SeenSides seen;
-  for (const Side camera : {Side::kLeft, Side::kRight}) {
-    const auto& field = flow.fields[static_cast<std::size_t>(camera)];
-    if (field && motion == Motion::kMoving) {
-      seen[static_cast<std::size_t>(RouteSide(camera, options_.travel))] =
-          FindLandmarks(*field, options_.landmark);
-    }
-  }
-  return seen;
 }
 
 SeenProfiles Localizer::MakeRouteProfiles(const ObservedFlow& flow, Motion motion) const {

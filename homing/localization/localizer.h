@@ -74,7 +74,6 @@ class Localizer {
  private:
   // This robot's cameras, with the sizes that they must have. FAILED_PRECONDITION.
   absl::StatusOr<std::array<Camera, 2>> CamerasFor(std::span<const JourneyRef> journeys) const;
-  SeenSides FindRouteLandmarks(const ObservedFlow& flow, Motion motion) const;
   SeenProfiles MakeRouteProfiles(const ObservedFlow& flow, Motion motion) const;
   // Moves the pose beside the path, and gives the flow as if the robot headed along it.
   ObservedFlow FollowPath(std::span<const JourneyRef> journeys, const ObservedFlow& flow,

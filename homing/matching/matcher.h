@@ -14,20 +14,11 @@
 
 #include "homing/journey/journey_map.h"
 #include "homing/journey/journey_ref.h"
-#include "homing/landmark/landmark_finder.h"
+#include "homing/journey/see_landmarks.h"
 #include "homing/matching/survival_bound.h"
 #include "homing/similarity/similarity.h"
 
 namespace homing {
-
-// kReturn: the cameras look at exchanged sides of the route. The direction is always estimated.
-enum class Travel { kReturn = 1, kSame = 2 };
-
-// The side of the route that a camera of the robot looks at.
-Side RouteSide(Side camera, Travel travel);
-
-// Landmarks seen at one instant, indexed by side of the ROUTE.
-using SeenSides = std::array<std::vector<SeenLandmark>, 2>;
 
 struct Match {
   // Index into the journeys searched.

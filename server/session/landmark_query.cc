@@ -7,8 +7,7 @@
 #include "homing/base/field_error.h"
 #include "homing/base/range_check.h"
 #include "homing/base/status_macros.h"
-#include "homing/flow/motion.h"
-#include "homing/landmark/landmark_finder.h"
+#include "homing/journey/see_landmarks.h"
 #include "server/catalog/fleet_index.h"
 #include "server/catalog/journey_selection.h"
 
@@ -85,23 +84,22 @@ absl::StatusOr<SeenNow> See(const LandmarkQuery& query, const LocalizerOptions& 
   SeenNow now;
   ObservedFlow flow;
   for (std::size_t side = 0; side < query.views.size(); ++side) {
-    HOMING_ASSIGN_OR_RETURN(const ObservedFlow raw,
+    HOMING_ASSIGN_OR_RETURN(ObservedFlow raw,
                             FlowOf(query.views[side], side, options.flow, limits));
     if (raw.fields[side]) {
-      flow.fields[side] = Rectify(*raw.fields[side], options.cameras[side]);
+      flow.fields[side] = std::move(raw.fields[side]);
       flow.makes_step = flow.makes_step || raw.makes_step;
     }
   }
   if (flow.fields[0] || flow.fields[1]) {
-    now.motion = ClassifyMotion(flow, options.cameras);
+    SeenStep step = SeeLandmarks(flow, options.cameras, query.travel, options.landmark);
+    now.motion = step.motion;
+    now.sides = std::move(step.landmarks);
   }
   for (std::size_t side = 0; side < query.views.size(); ++side) {
-    const auto route =
-        static_cast<std::size_t>(RouteSide(Side{static_cast<int>(side)}, query.travel));
     if (const auto* seen = std::get_if<SeenFingerprints>(&query.views[side])) {
-      now.sides[route] = seen->landmarks;
-    } else if (flow.fields[side] && now.motion == Motion::kMoving) {
-      now.sides[route] = FindLandmarks(*flow.fields[side], options.landmark);
+      const Side route = RouteSide(Side{static_cast<int>(side)}, query.travel);
+      now.sides[static_cast<std::size_t>(route)] = seen->landmarks;
     }
   }
   return now;
