@@ -103,6 +103,22 @@ void ApplyFile(const std::string& path, CLI::App* app) {
   }
 }
 
+CLI::App* AddHealthCheck(CLI::App* app, ServerCommand* command) {
+  CLI::App* health = app->add_subcommand("healthcheck", "Exit 0 if a server is serving, else 1");
+  health->fallthrough();
+  health->add_option("--server", command->health_server, "Address; by default that of --listen");
+  health
+      ->add_option("--ca", command->health_ca,
+                   "CA of the server's certificate, PEM: use TLS; by default the certificate of "
+                   "--tls-cert is trusted")
+      ->envname("HOMING_HEALTH_CA");
+  health->add_option("--cert", command->health_cert, "Certificate to show, PEM")
+      ->envname("HOMING_HEALTH_CERT");
+  health->add_option("--key", command->health_key, "Its private key, PEM")
+      ->envname("HOMING_HEALTH_KEY");
+  return health;
+}
+
 // The server of the same options and environment: its address and its certificate. A server that
 // asks for certificates of its clients needs --cert and --key: one of `certs` is good for a server
 // alone.
@@ -135,18 +151,7 @@ ServerCommand ParseCommandLine(int argc, const char* const* argv) {
       ->envname("HOMING_CONFIG");
   app.add_flag("--check-config", check_config, "Check options and end");
   app.set_version_flag("--version", "homing-server " HOMING_VERSION);
-  CLI::App* health = app.add_subcommand("healthcheck", "Exit 0 if a server is serving, else 1");
-  health->fallthrough();
-  health->add_option("--server", command.health_server, "Address; by default that of --listen");
-  health
-      ->add_option("--ca", command.health_ca,
-                   "CA of the server's certificate, PEM: use TLS; by default the certificate of "
-                   "--tls-cert is trusted")
-      ->envname("HOMING_HEALTH_CA");
-  health->add_option("--cert", command.health_cert, "Certificate to show, PEM")
-      ->envname("HOMING_HEALTH_CERT");
-  health->add_option("--key", command.health_key, "Its private key, PEM")
-      ->envname("HOMING_HEALTH_KEY");
+  CLI::App* health = AddHealthCheck(&app, &command);
   const StoreCommands store(&app, &command);
   CLI::App* certs = AddCertsCommand(&app, &command.certificates);
   CLI::App* token = AddTokenCommand(&app, &command.token);
