@@ -92,7 +92,7 @@ class HOMING_THREAD_ATTRIBUTE(scoped_lockable) MutexLock {
   bool held_ = true;
 };
 
-// Waits for a change of what a mutex guards. Wakes up without one now and then: wait in a loop,
+// Waits for a change of what a mutex guards. It may wake up without a change: wait in a loop,
 // `while (!condition) changed.Wait(mutex);`.
 class ConditionVariable {
  public:

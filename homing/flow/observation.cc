@@ -25,7 +25,7 @@ bool IsPlausible(float p, int side) {
   return (p >= -static_cast<float>(side)) & (p <= 2 * static_cast<float>(side));
 }
 
-// Checks all vectors, without a branch a vector.
+// Checks all vectors with no branch for each vector.
 HOMING_VECTOR_CLONES
 bool ArePlausible(const FlowField& field) {
   std::int32_t beyond = 0;

@@ -39,7 +39,7 @@ struct RecordedFingerprint {
   friend bool operator==(const RecordedFingerprint&, const RecordedFingerprint&) = default;
 };
 
-// JourneyStep::sequence where it is not known: one after that of the step before; 1 for the first
+// Stands for an unknown JourneyStep::sequence: that of the previous step plus 1; 1 for the first
 // step.
 inline constexpr std::int64_t kNextSequence = -1;
 

@@ -11,11 +11,11 @@
 namespace homing {
 namespace {
 
-// Shorter flow is noise: it gives no more parallax than this. Pixels.
+// Shorter flow is noise and counts as this long. Pixels.
 constexpr double kLeastFlowPx = 0.05;
 // No object is taken to be nearer to the camera than this, in distances of the mean flow.
 constexpr float kLeastDepth = 0.3F;
-// A parallax code needs vectors of at least this weight in its two cells.
+// Least weight of the vectors in two cells for a parallax code.
 constexpr float kLeastWeight = 0.25F;
 
 constexpr int kColumns = FlowProfile::kColumns;

@@ -41,7 +41,7 @@ class TreeVisitor {
 struct TreeQuery {
   float x = 0;
   float y = 0;
-  // > 0.
+  // Number of vectors, > 0.
   std::int32_t count = 0;
 };
 

@@ -27,7 +27,7 @@ class SurvivalBound {
   }
   // From this squared distance on, At is less than `share`.
   float ReachOf(double share) const;
-  // Where At looks; for loops over many.
+  // Index of At's table entry, for loops over many distances.
   static std::int32_t IndexOf(float squared_px) {
     // The bits of a float that is not negative grow with it.
     const std::int32_t place = (std::bit_cast<std::int32_t>(squared_px) >> kShift) - kFirst;
@@ -36,10 +36,11 @@ class SurvivalBound {
   const float* table() const { return table_.data(); }
 
  private:
-  // Kept of the 23 bits behind the point.
+  // Bits of the 23-bit mantissa that the index keeps.
   static constexpr int kMantissaBits = 4;
   static constexpr int kShift = 23 - kMantissaBits;
-  // From 2^-24 px^2, below which the bound is 1, to 2^26, beyond which it stays.
+  // The table covers squared distances from 2^-24 px^2, below which the bound is 1, to 2^26 px^2,
+  // beyond which it is constant.
   static constexpr std::int32_t kFirst = (127 - 24) << kMantissaBits;
   static constexpr std::int32_t kEntries = 50 << kMantissaBits;
 

@@ -16,7 +16,8 @@ namespace {
 // Stored profiles that are compared with all others.
 constexpr std::int64_t kSelfSamples = 256;
 constexpr std::int64_t kMostLag = 200;
-// Part of a step's bias that is taken off. The whole would also take off what tells it apart.
+// Fraction of a step's bias that is subtracted. Subtracting all of it would also remove what
+// distinguishes the step.
 constexpr double kBiasPart = 0.5;
 // A map is measured again when it has grown by this factor.
 constexpr double kMuchGrown = 1.25;

@@ -33,8 +33,8 @@ class CameraOdometer {
 
   // kNone where the observation has no reading.
   std::int16_t Read(const OdometerReading& reading) const;
-  // +1: the camera moves past what it sees as it did when the map was made; -1: the other way; 0:
-  // not seen.
+  // +1: the camera moves past the scene in the same direction as at recording; -1: in the other
+  // direction; 0: unknown.
   int Way(const OdometerReading& reading) const;
   // Logarithm of the odds that the robot drives away from home, by Way and by how steady the sign
   // was over the map. 0: nothing is known.
@@ -50,10 +50,10 @@ class CameraOdometer {
   double along_ = 0;
 };
 
-// Over a stretch of so many correlation lengths a map has changed (SharedChange).
+// Length of the stretch over which SharedChange compares, correlation lengths.
 inline constexpr double kStretchLengths = 2;
 
-// Of the profiles of one side. Immutable.
+// Figures of one side's profiles. Immutable.
 struct SideScale {
   CameraOdometer odometer;
   // By step: mean reading of the steps around it.
@@ -76,14 +76,15 @@ struct RouteScale {
   double correlation_steps = 1;
   // Deviation of the noise of log2(flow now / flow stored), octaves.
   double odometer_noise = 0;
-  // Share of the change over a stretch that the likest different place has too, median. By the
-  // sides that are compared: 1 left, 2 right, 3 both; 0 where a map is too short to tell.
+  // Median fraction of the change over a stretch that the most similar different place shares.
+  // Indexed by the compared sides: 1 left, 2 right, 3 both; 0 if the map is too short to measure
+  // it.
   std::array<float, 4> different_share{};
 };
 
 RouteScale MeasureRoute(const JourneyMap& map);
 
-// The same, kept with the map until it has grown much or has profiles of a new side.
+// The same, kept with the map until the map has grown much or has profiles of a new side.
 std::shared_ptr<const RouteScale> MeasuredScale(const JourneyMap& map);
 
 }  // namespace homing

@@ -1,5 +1,6 @@
-// Whether the robot sees the map's changes: evidence of being on the route that no light, no camera
-// and no landmark that is near to everything can imitate. See docs/algorithm.md.
+// Measures whether the view changes along the way as the map does. This is evidence of being on the
+// route that neither light nor the camera nor an unspecific landmark can imitate. See
+// docs/algorithm.md.
 #ifndef HOMING_PROFILE_SHARED_CHANGE_H_
 #define HOMING_PROFILE_SHARED_CHANGE_H_
 
@@ -16,7 +17,7 @@
 
 namespace homing {
 
-// What was seen at one instant, and where the robot is believed to have been.
+// The views of one instant, and the robot's believed place at that instant.
 struct BelievedInstant {
   std::size_t journey = 0;
   std::int64_t step = 0;
@@ -35,9 +36,9 @@ struct BelievedInstant {
 class SharedChange {
  public:
   // Between this instant and the one some correlation lengths before, the map changes and the view
-  // changes. Returns how much of the map's usual change they share, less what the likest different
-  // place of the same map shares: above 0 on the route. None while the robot has not moved so far.
-  // `routes`: the scales of `journeys`.
+  // changes. Returns how much of the map's usual change they share, less the fraction that the most
+  // similar different place of the same map shares: above 0 on the route. None while the robot has
+  // not moved that far. `routes`: the scales of `journeys`.
   std::optional<double> Add(std::span<const JourneyRef> journeys,
                             std::span<const RouteScale> routes, const BelievedInstant& now);
 
