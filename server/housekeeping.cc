@@ -10,7 +10,7 @@ namespace homing::server {
 namespace {
 
 constexpr std::chrono::seconds kRound{1};
-// Journeys live for days.
+// Interval of deletions; journeys are kept for days.
 constexpr std::chrono::seconds kDeleteEvery{60};
 constexpr std::chrono::seconds kCountEvery{10};
 constexpr std::chrono::seconds kWarnEvery{86'400};
@@ -45,7 +45,7 @@ void Housekeeping::Reload() {
   }
 }
 
-// For those that watch the fleet: robots appear when their first journey is created.
+// For watchers of the fleet: a robot appears when its first journey is created.
 void Housekeeping::CountJourneys() {
   if (!core_->fleet.IsFleetWatched()) return;
   if (const absl::Status status = CountStoredJourneys(core_); !status.ok()) {

@@ -145,7 +145,7 @@ absl::Status SaveJourney(Connection& connection, const JourneyRecord& record,
   });
 }
 
-// Of a store that may be in use by many servers.
+// Examines a PostgreSQL store, which other servers may be using.
 absl::StatusOr<Diagnosis> ExamineShared(const std::string& url) {
   StoreOptions options;
   options.url = url;

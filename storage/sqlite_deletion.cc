@@ -40,7 +40,8 @@ absl::Status SqliteJourneyStore::DeleteJourney(const std::string& name) {
   const std::int64_t bytes = reserve_ == nullptr ? 0 : reserve_->GiveUp();
   if (bytes == 0) return deleted;
   absl::Status again = DeleteOnce(name);
-  // Once it is in the file, the log begins anew: what follows needs no more space.
+  // Moves the log into the file. The log then restarts at its beginning, so that later writes need
+  // no more space.
   checkpointer_->MoveNow();
   if (absl::IsResourceExhausted(again)) {
     again = DeleteOnce(name);

@@ -19,7 +19,7 @@ namespace {
 // Bytes of the header of SQLite's log, and of the header of each page in it.
 constexpr std::int64_t kLogHeaderBytes = 32;
 constexpr std::int64_t kLogFrameBytes = 24;
-// As journal_size_limit: a longer log is cut by SQLite itself.
+// As journal_size_limit: SQLite truncates a longer log.
 constexpr std::int64_t kLogKeptBytes = 67'108'864;
 // Least time between two checks of a damaged file.
 constexpr std::chrono::seconds kCheckEvery{10};
@@ -86,7 +86,7 @@ void SqliteJourneyStore::NoteHealth(const absl::Status& written, bool changed) {
   const bool fault = IsStoreFault(written);
   if (!fault && !(written.ok() && changed)) return;
   const MutexLock lock(health_mutex_);
-  // A part that can be written does not heal another that is damaged.
+  // A successful write to one part of the file does not prove that a damaged part is whole.
   if (!fault && absl::IsDataLoss(write_health_)) return;
   write_health_ = fault ? written : absl::OkStatus();
 }

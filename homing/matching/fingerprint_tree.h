@@ -16,7 +16,7 @@
 
 namespace homing {
 
-// 20 bytes a fingerprint.
+// One fingerprint in 20 bytes. x and y: mean midpoint, source pixels.
 struct TreeEntry {
   float x = 0;
   float y = 0;

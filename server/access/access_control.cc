@@ -25,7 +25,7 @@ bool IsEmpty(const std::string& path) {
   return std::filesystem::file_size(path, error) == 0 && !error;
 }
 
-// A file may be read while it is being written. It is read once it was not changed for a second.
+// A file may be half written. It is read only after it was unchanged for a second.
 bool IsSettled(const std::string& path) {
   std::error_code error;
   const auto written = std::filesystem::last_write_time(path, error);

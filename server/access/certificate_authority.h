@@ -32,7 +32,7 @@ struct CertificateRequest {
 // Keys are P-256. INTERNAL: OpenSSL fails.
 class CertificateAuthority {
  public:
-  // With a new key.
+  // Makes an authority with a new key.
   static absl::StatusOr<CertificateAuthority> Make(const std::string& common_name,
                                                    std::chrono::seconds lifetime);
   // INVALID_ARGUMENT: not PEM, or the key of another certificate.
@@ -43,7 +43,7 @@ class CertificateAuthority {
   absl::Status Renew(std::chrono::seconds lifetime);
 
   absl::StatusOr<KeyAndCertificate> pem() const;
-  // INVALID_ARGUMENT: a name OpenSSL does not take.
+  // INVALID_ARGUMENT: OpenSSL does not accept a name.
   absl::StatusOr<KeyAndCertificate> Issue(const CertificateRequest& request) const;
   // A revocation list (PEM) that is valid for `lifetime`. It holds the entries of `previous` (PEM;
   // may be empty) and `revoked` (PEM certificates). INVALID_ARGUMENT: not PEM.

@@ -19,7 +19,7 @@ struct CertificateExpiry {
   // The option that names the file, and the file.
   std::string flag;
   std::string path;
-  // Seconds since 1970: the end of the first certificate or list in the file to end.
+  // Seconds since 1970: the earliest end of the certificates or lists in the file.
   std::int64_t end_s = 0;
 };
 

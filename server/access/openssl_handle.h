@@ -29,7 +29,7 @@ struct OpensslFree {
 template <typename T>
 using OpensslPtr = std::unique_ptr<T, OpensslFree>;
 
-// `text` must outlive it.
+// `text` must outlive the result.
 inline OpensslPtr<BIO> ReadingBio(std::string_view text) {
   return OpensslPtr<BIO>(BIO_new_mem_buf(text.data(), static_cast<int>(text.size())));
 }

@@ -69,7 +69,7 @@ CLI::App* AddTokenCommand(CLI::App* app, TokenOrder* order) {
   return token;
 }
 
-// A value of the file in the form of the command line.
+// Converts a value of the file to the text that a flag would have.
 std::string TextOf(const toml::node& node) {
   if (const auto text = node.value<std::string>(); text && node.is_string()) {
     return *text;
@@ -119,9 +119,9 @@ CLI::App* AddHealthCheck(CLI::App* app, ServerCommand* command) {
   return health;
 }
 
-// The server of the same options and environment: its address and its certificate. A server that
-// asks for certificates of its clients needs --cert and --key: one of `certs` is good for a server
-// alone.
+// Sets the address and the trusted certificate from the server's own options and environment. A
+// server that requires client certificates needs --cert and --key too, because the server's
+// certificate from `certs` is not valid for a client.
 void ChooseHealthCheck(ServerCommand* command) {
   const ServerOptions& server = command->options;
   const bool own = command->health_server.empty();

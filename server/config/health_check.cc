@@ -23,7 +23,7 @@ absl::StatusOr<std::string> ReadPem(const std::string& flag, const std::string& 
   return path.empty() ? absl::StatusOr<std::string>("") : ReadFlagFile(flag, path);
 }
 
-// A name that the certificate is made out to; empty: none.
+// A name for which the certificate is valid; empty: it has none.
 std::string NameIn(const std::string& pem) {
   const std::unique_ptr<BIO, int (*)(BIO*)> bytes(
       BIO_new_mem_buf(pem.data(), static_cast<int>(pem.size())), &BIO_free);

@@ -110,7 +110,7 @@ Value ValueOf(const ServerOption& option, const ServerOptions& options) {
   return option.value(const_cast<ServerOptions&>(options));
 }
 
-// Of numbers.
+// REQUIRES: IsNumber(value).
 std::int64_t NumberOf(const Value& value) {
   const auto* small = std::get_if<int*>(&value);
   return small != nullptr ? **small : *std::get<std::int64_t*>(value);

@@ -12,7 +12,7 @@
 namespace homing::server {
 namespace {
 
-// The commands take a path, too.
+// The commands accept a plain path, too.
 std::string PathOf(const std::string& url) { return storage::ParseDatabaseUrl(url).value_or(url); }
 
 int ReportFailure(const absl::Status& status) {

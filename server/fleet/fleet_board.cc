@@ -11,7 +11,7 @@ namespace {
 
 using google::protobuf::util::TimeUtil;
 
-// Half of the time in which a lost robot must be seen.
+// Half of the time within which a lost robot must be shown.
 constexpr std::chrono::milliseconds kPulse{500};
 
 // The watchers that still exist; the others are removed.

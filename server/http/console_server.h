@@ -25,7 +25,7 @@ struct ConsoleOptions {
   std::string user_header;
 };
 
-// What the console shows; all must outlive it.
+// The objects that the console shows; all must outlive it.
 struct ConsoleContext {
   AccessControl* access = nullptr;
   // To the server in this process.
@@ -48,7 +48,8 @@ class ConsoleServer {
   std::string url() const;
   // A link that logs an operator in once, within 15 minutes.
   absl::StatusOr<std::string> MakeLoginLink(const std::string& identity);
-  // Reads the certificate again. INVALID_ARGUMENT: it cannot be used; the one before stays.
+  // Reads the certificate again. INVALID_ARGUMENT: it cannot be used; the previous one stays in
+  // use.
   absl::Status ReloadCertificate();
 
  private:

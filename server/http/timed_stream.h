@@ -1,5 +1,5 @@
-// One HTTP connection whose requests have a limited size and time: the library bounds each line and
-// each wait, and neither their number nor their sum.
+// One HTTP connection whose requests have a limited size and time: the library limits each line and
+// each wait, but neither their number nor their sum.
 #ifndef SERVER_HTTP_TIMED_STREAM_H_
 #define SERVER_HTTP_TIMED_STREAM_H_
 
@@ -19,11 +19,12 @@ namespace homing::server {
 class TimedStream final : public httplib::Stream {
  public:
   struct Limits {
-    // Of one request, with its headers.
+    // Size of one request with its headers.
     std::size_t request_bytes = 0;
-    // From its first byte to its last; of the handshake; and of each piece that is sent.
+    // Time for a request from its first byte to its last, for the TLS handshake, and for each piece
+    // that is sent.
     std::chrono::milliseconds request_time{};
-    // Between two requests.
+    // Time between two requests.
     std::chrono::milliseconds idle_time{};
   };
 
@@ -59,7 +60,8 @@ class TimedStream final : public httplib::Stream {
   };
 
   bool Await(short events, Time end) const;
-  // What the last call of the connection waits for; false: it has ended, or `end` has passed.
+  // Waits for the socket as the last SSL call, with this `result`, requires. False: the connection
+  // has ended, or `end` has passed.
   bool AwaitSsl(int result, Time end);
   ssize_t Receive(char* bytes, std::size_t size, Time end);
   ssize_t SendSome(const char* bytes, std::size_t size, Time end);
@@ -68,14 +70,14 @@ class TimedStream final : public httplib::Stream {
   const Limits limits_;
   // Null without TLS.
   std::unique_ptr<SSL, SslFree> ssl_;
-  // What was received and not read yet: the library reads byte by byte.
+  // Received bytes that were not read yet: the library reads byte by byte.
   std::array<char, 4096> buffer_{};
   std::size_t first_ = 0;
   std::size_t last_ = 0;
   std::uint64_t consumed_ = 0;
-  // The last request did not come whole.
+  // The last request was incomplete.
   bool broken_ = false;
-  // Of the current request.
+  // Bytes that the current request may still have.
   std::size_t bytes_left_ = 0;
   Time request_end_;
 };

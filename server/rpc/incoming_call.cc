@@ -162,7 +162,8 @@ grpc::Status IncomingCall::Finish(const absl::Status& status) {
       spdlog::info("audit: {} {} \"{}\": {}", caller_.identity.empty() ? "-" : caller_.identity,
                    TraitsOf(rpc_).method, resource_, absl::StatusCodeToString(status.code()));
     }
-    // The client records the trace, so it has a line of each call. A stranger cannot fill the log.
+    // The client records the trace, so each of its calls gets a log line. A stranger cannot fill
+    // the log with them.
     if (trace_ && IsSampled(*trace_) && identified_.ok()) {
       spdlog::info("call: {} \"{}\": {} in {:.6f} s", TraitsOf(rpc_).method, resource_,
                    absl::StatusCodeToString(status.code()), elapsed.count());

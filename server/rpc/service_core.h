@@ -41,7 +41,7 @@ struct CoreOptions {
   std::function<TimePoint()> clock = [] { return std::chrono::steady_clock::now(); };
 };
 
-// Commits are counted and timed.
+// Options with a callback that counts and times the commits.
 inline storage::CommitQueueOptions QueueOptions(Metrics* metrics) {
   storage::CommitQueueOptions options;
   options.on_commit = [metrics](int stored, bool ok, std::chrono::duration<double> time) {
@@ -60,7 +60,7 @@ inline std::int64_t WallClockNs() {
 // The order of destruction is the reverse: first the workers, then the commit queue, then the
 // store.
 struct ServiceCore {
-  // That wait.
+  // Most tasks of long_work that wait.
   static constexpr int kMaxLongWork = 16;
 
   ServiceCore(std::unique_ptr<storage::JourneyStore> opened,
@@ -103,7 +103,7 @@ struct ServiceCore {
   std::atomic<std::int64_t> import_bytes = 0;
   storage::CommitQueue queue;
   StreamRegistry streams;
-  // What may take long, so that robots do not wait for it: one at a time.
+  // Runs long tasks, one at a time, so that robots do not wait for them.
   WorkerPool long_work{1, kMaxLongWork};
   WorkerPool pool;
 };

@@ -24,7 +24,7 @@ namespace {
 // One byte follows, the version.
 constexpr std::string_view kMagic = "HOMINGJ";
 constexpr char kVersion = 2;
-// Without sequences.
+// The version without sequences.
 constexpr char kVersionBefore = 1;
 constexpr std::size_t kHeaderBytes = kMagic.size() + 1;
 constexpr std::size_t kChecksumBytes = 4;
@@ -133,7 +133,8 @@ absl::Status CheckSize(const char* field, std::int64_t size, std::int64_t expect
   return Damaged(absl::StrCat(field, " has ", size, " entries: must have ", expected));
 }
 
-// The database does not keep the sign of 0, so that the file would not come out as it went in.
+// The database does not keep the sign of 0: an export of the imported map would differ from the
+// file.
 template <typename Column>
 absl::Status CheckZeros(const char* field, const Column& values) {
   for (const double value : values) {

@@ -44,8 +44,8 @@ class LocalizationSession {
 
   // The first observation may have any sequence; each later one must have the next: OUT_OF_RANGE.
   // NOT_FOUND: the named journey was deleted, or all of a wildcard. After one of a wildcard was
-  // deleted, the others go on from the belief as after a break. FAILED_PRECONDITION: other camera
-  // or settings. INVALID_ARGUMENT. RESOURCE_EXHAUSTED: as JourneyCatalog::LoadMaps.
+  // deleted, the belief over the others is kept, as after a break. FAILED_PRECONDITION: other
+  // camera or settings. INVALID_ARGUMENT. RESOURCE_EXHAUSTED: as JourneyCatalog::LoadMaps.
   absl::StatusOr<Localization> Localize(const Observation& observation);
 
   // Where the robot may be on one journey after the last observation, in at most `most` groups of
@@ -75,7 +75,7 @@ class LocalizationSession {
   absl::Status CheckSequence(std::int64_t sequence);
   absl::Status Start(const Observation& observation);
   absl::Status StartAt(const LocalizationPrior& prior);
-  // Goes on without the journeys that were deleted.
+  // Continues without the deleted journeys.
   absl::Status LeaveDeleted();
 
   JourneyCatalog* const catalog_;

@@ -1,5 +1,5 @@
-// One connection to PostgreSQL, by libpq: prepared statements, with deadlines of its own. A server
-// that was stopped answers nothing and closes nothing, which no timeout of TCP notices.
+// One connection to PostgreSQL, by libpq: prepared statements, each with a deadline. TCP's timeouts
+// do not detect a stopped server, which neither answers nor closes its connections.
 #ifndef STORAGE_POSTGRES_PG_CONNECTION_H_
 #define STORAGE_POSTGRES_PG_CONNECTION_H_
 
@@ -64,7 +64,7 @@ class PgConnection {
   // passed before the answer, or the server gave up waiting for its replica, which it reports as
   // success with a warning. The connection is of no further use.
   bool in_doubt() const { return in_doubt_; }
-  // Of no further use.
+  // The connection is of no further use.
   bool is_lost() const { return in_doubt_ || PQstatus(connection_) != CONNECTION_OK; }
 
  private:
@@ -73,7 +73,7 @@ class PgConnection {
   absl::Status Prepare(const char* sql, const PgArguments& arguments, Deadline deadline);
   // Waits until a result can be taken without blocking.
   absl::Status AwaitResult(Deadline deadline);
-  // All results of what was sent; returns the last one, or the first error.
+  // Reads all results of the sent statements; returns the last one, or the first error.
   absl::StatusOr<PgRows> TakeResults(Deadline deadline);
   absl::Status Lost(const std::string& why);
   static void NoteWarning(void* connection, const PGresult* notice);

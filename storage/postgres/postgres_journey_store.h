@@ -60,7 +60,7 @@ class PostgresJourneyStore final : public JourneyStore {
   absl::StatusOr<Result> ReadOne(Query query);
 
   PgDatabase database_;
-  // Of this run of this server.
+  // Random number of this run of this server.
   const std::int64_t server_id_;
   PgPool readers_;
 
