@@ -8,6 +8,7 @@
 #include "homing/base/field_error.h"
 #include "homing/base/status_macros.h"
 #include "storage/row_words.h"
+#include "storage/store_errors.h"
 
 namespace homing::storage {
 namespace {
@@ -16,10 +17,7 @@ namespace {
 constexpr std::int64_t kStepsSeen = 24;
 
 absl::Status CheckContinues(const GrowingJourney& journey, const JourneyAppend& append) {
-  if (journey.state != JourneyState::kActive) {
-    return absl::FailedPreconditionError(
-        absl::StrCat("journey '", append.journey, "' is finished"));
-  }
+  if (journey.state != JourneyState::kActive) return JourneyIsFinished(append.journey);
   if (append.epoch != journey.epoch) {
     return absl::AbortedError(absl::StrCat("journey '", append.journey,
                                            "' was taken over by another writer (epoch ",

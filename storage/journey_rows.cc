@@ -6,6 +6,7 @@
 #include "homing/base/status_macros.h"
 #include "storage/row_words.h"
 #include "storage/settings_json.h"
+#include "storage/store_errors.h"
 
 namespace homing::storage {
 namespace {
@@ -64,19 +65,13 @@ absl::Status FoundIf(int rows_changed, const std::string& name) {
 
 }  // namespace
 
-absl::Status JourneyNotFound(const std::string& name) {
-  return absl::NotFoundError(absl::StrCat("journey '", name, "' does not exist"));
-}
-
 absl::StatusOr<std::int64_t> InsertJourney(Connection& connection, const JourneyRecord& record) {
   Query query = connection.Prepare(
       kInsertJourney, record.name, Word(record.state), record.writer_id, ToJson(record.readers),
       Word(record.input), record.next_sequence, record.create_time_ns, record.start_time_ns,
       record.end_time_ns, record.step_count, record.landmark_count, record.fingerprint_count,
       record.resend_from);
-  if (!query.Next()) {
-    return absl::AlreadyExistsError(absl::StrCat("journey '", record.name, "' already exists"));
-  }
+  if (!query.Next()) return JourneyExists(record.name);
   const std::int64_t id = query.Integer(0);
   connection.Prepare(kInsertSettings, id, ToJson(record.settings)).Run();
   return id;

@@ -19,8 +19,6 @@ struct JourneyRow {
   JourneyRecord record;
 };
 
-absl::Status JourneyNotFound(const std::string& name);
-
 // Writes the counts too. ALREADY_EXISTS. Returns the id.
 absl::StatusOr<std::int64_t> InsertJourney(Connection& connection, const JourneyRecord& record);
 // NOT_FOUND, DATA_LOSS.

@@ -29,6 +29,9 @@ std::int64_t LastSequence(std::int64_t step, std::int64_t sequence, std::int64_t
 
 // One step as its row holds it.
 JourneyStep StepOfMap(const JourneyMap& map, std::int64_t number);
+// The row of a journey that begins: all counts are 0.
+JourneyRecord EmptyRecord(const JourneyRecord& record);
+
 // The row of an imported journey.
 JourneyRecord FinishedRecord(const JourneyRecord& record, const JourneyMap& map);
 

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include "absl/strings/str_cat.h"
 #include "homing/base/status_macros.h"
 #include "storage/settings_json.h"
+#include "storage/store_errors.h"
 
 namespace homing::storage {
 namespace {
@@ -43,15 +43,12 @@ absl::Status InsertModel(Connection& connection, const StoredModel& model) {
                    model.model.height, ToJson(model.training), model.create_time_ns)
           .Run();
   if (inserted > 0) return absl::OkStatus();
-  return absl::AlreadyExistsError(
-      absl::StrCat("deviation model '", model.name, "' already exists"));
+  return ModelExists(model.name);
 }
 
 absl::StatusOr<StoredModel> FindModel(Connection& connection, const std::string& name) {
   Query query = connection.Prepare(kFindModel, name);
-  if (!query.Next()) {
-    return absl::NotFoundError(absl::StrCat("deviation model '", name, "' does not exist"));
-  }
+  if (!query.Next()) return ModelNotFound(name);
   return ReadModelRow(query);
 }
 

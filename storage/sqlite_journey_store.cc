@@ -12,6 +12,7 @@
 #include "storage/model_rows.h"
 #include "storage/schema.h"
 #include "storage/sqlite_status.h"
+#include "storage/store_errors.h"
 
 namespace homing::storage {
 namespace {
@@ -42,10 +43,7 @@ absl::Status SqliteJourneyStore::StartCheckpoints(int busy_timeout_ms) {
 }
 
 absl::Status SqliteJourneyStore::Transact(const Body& body) {
-  if (read_only()) {
-    return absl::FailedPreconditionError(
-        "store: it is read-only (--readonly): nothing can be recorded, changed or deleted");
-  }
+  if (read_only()) return ReadOnlyError();
   const MutexLock lock(write_mutex_);
   HOMING_RETURN_IF_ERROR(CheckFiles());
   Connection& writer = *writer_;
@@ -154,11 +152,9 @@ absl::StatusOr<Result> SqliteJourneyStore::ReadOne(Query query) {
 }
 
 absl::Status SqliteJourneyStore::CreateJourney(const JourneyRecord& record) {
-  JourneyRecord empty = record;
-  empty.step_count = 0;
-  empty.landmark_count = 0;
-  empty.fingerprint_count = 0;
-  return Write([&](Connection& connection) { return InsertJourney(connection, empty).status(); });
+  return Write([&](Connection& connection) {
+    return InsertJourney(connection, EmptyRecord(record)).status();
+  });
 }
 
 absl::StatusOr<JourneyRecord> SqliteJourneyStore::GetJourney(const std::string& name) {
@@ -185,9 +181,7 @@ absl::StatusOr<AcquiredJourney> SqliteJourneyStore::AcquireJourney(const std::st
   AcquiredJourney acquired;
   const absl::Status status = Transact([&](Connection& connection) -> absl::Status {
     HOMING_ASSIGN_OR_RETURN(JourneyRow row, FindJourney(connection, name));
-    if (row.record.state == JourneyState::kFinished) {
-      return absl::FailedPreconditionError(absl::StrCat("journey '", name, "' is finished"));
-    }
+    if (row.record.state == JourneyState::kFinished) return JourneyIsFinished(name);
     if (row.record.writer_id != writer_id) {
       HOMING_RETURN_IF_ERROR(SetJourneyWriter(connection, name, writer_id));
       row.record.writer_id = writer_id;

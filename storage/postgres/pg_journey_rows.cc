@@ -7,6 +7,7 @@
 #include "storage/postgres/pg_step_rows.h"
 #include "storage/row_words.h"
 #include "storage/settings_json.h"
+#include "storage/store_errors.h"
 
 namespace homing::storage::postgres {
 namespace {
@@ -85,10 +86,6 @@ std::int64_t JourneyId(const std::string& name) {
   return static_cast<std::int64_t>(hash >> 1U);
 }
 
-absl::Status JourneyNotFound(const std::string& name) {
-  return absl::NotFoundError(absl::StrCat("journey '", name, "' does not exist"));
-}
-
 absl::Status InsertJourney(PgConnection& connection, const JourneyRecord& record,
                            Deadline deadline) {
   PgArguments arguments = KeyOf(record.name);
@@ -101,10 +98,9 @@ absl::Status InsertJourney(PgConnection& connection, const JourneyRecord& record
   HOMING_ASSIGN_OR_RETURN(const PgRows inserted,
                           connection.Run(kInsertJourney, arguments, deadline));
   if (inserted.changed() > 0) return absl::OkStatus();
-  const bool same = FindJourney(connection, record.name, deadline).ok();
+  if (FindJourney(connection, record.name, deadline).ok()) return JourneyExists(record.name);
   return absl::AlreadyExistsError(absl::StrCat(
-      "journey '", record.name, "' ",
-      same ? "already exists" : "has the same hash as another one: choose another name"));
+      "journey '", record.name, "' has the same hash as another one: choose another name"));
 }
 
 absl::StatusOr<JourneyRecord> FindJourney(PgConnection& connection, const std::string& name,

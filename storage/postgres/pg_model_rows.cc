@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include "absl/strings/str_cat.h"
 #include "homing/base/status_macros.h"
 #include "storage/settings_json.h"
+#include "storage/store_errors.h"
 
 namespace homing::storage::postgres {
 namespace {
@@ -44,17 +44,14 @@ absl::Status InsertModel(PgConnection& connection, const StoredModel& model, Dea
   arguments.Text(ToJson(model.training)).Integer(model.create_time_ns);
   HOMING_ASSIGN_OR_RETURN(const PgRows rows, connection.Run(kInsertModel, arguments, deadline));
   if (rows.changed() > 0) return absl::OkStatus();
-  return absl::AlreadyExistsError(
-      absl::StrCat("deviation model '", model.name, "' already exists"));
+  return ModelExists(model.name);
 }
 
 absl::StatusOr<StoredModel> FindModel(PgConnection& connection, const std::string& name,
                                       Deadline deadline) {
   HOMING_ASSIGN_OR_RETURN(const PgRows rows,
                           connection.Run(kFindModel, PgArguments().Text(name), deadline));
-  if (rows.size() == 0) {
-    return absl::NotFoundError(absl::StrCat("deviation model '", name, "' does not exist"));
-  }
+  if (rows.size() == 0) return ModelNotFound(name);
   return ReadModelRow(rows, 0);
 }
 
