@@ -46,7 +46,7 @@ BoundedServer::BoundedServer() {
 }
 
 absl::Status BoundedServer::UseCertificate(const std::string& certificate, const std::string& key) {
-  std::shared_ptr<SSL_CTX> context(SSL_CTX_new(TLS_server_method()), ContextFree());
+  std::shared_ptr<SSL_CTX> context(SSL_CTX_new(TLS_server_method()), OpensslFree());
   SSL_CTX_set_min_proto_version(context.get(), TLS1_2_VERSION);
   SSL_CTX_set_options(context.get(), SSL_OP_NO_RENEGOTIATION | SSL_OP_NO_COMPRESSION);
   if (SSL_CTX_use_certificate_chain_file(context.get(), certificate.c_str()) != 1 ||

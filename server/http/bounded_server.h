@@ -30,10 +30,6 @@ class BoundedServer final : public httplib::Server {
   absl::Status UseCertificate(const std::string& certificate, const std::string& key);
 
  private:
-  struct ContextFree {
-    void operator()(SSL_CTX* context) const { SSL_CTX_free(context); }
-  };
-
   // Called by the library on one of its threads.
   bool process_and_close_socket(socket_t socket) override;
   bool Serve(socket_t socket);

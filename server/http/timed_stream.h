@@ -4,14 +4,14 @@
 #define SERVER_HTTP_TIMED_STREAM_H_
 
 #include <httplib.h>
-#include <openssl/ssl.h>
 
 #include <array>
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <string>
+
+#include "server/access/openssl_handle.h"
 
 namespace homing::server {
 
@@ -55,9 +55,6 @@ class TimedStream final : public httplib::Stream {
 
  private:
   using Time = std::chrono::steady_clock::time_point;
-  struct SslFree {
-    void operator()(SSL* ssl) const { SSL_free(ssl); }
-  };
 
   bool Await(short events, Time end) const;
   // Waits for the socket as the last SSL call, with this `result`, requires. False: the connection
@@ -69,7 +66,7 @@ class TimedStream final : public httplib::Stream {
   const int socket_;
   const Limits limits_;
   // Null without TLS.
-  std::unique_ptr<SSL, SslFree> ssl_;
+  OpensslPtr<SSL> ssl_;
   // Received bytes that were not read yet: the library reads byte by byte.
   std::array<char, 4096> buffer_{};
   std::size_t first_ = 0;
