@@ -4,6 +4,7 @@
 
 #include <string>
 
+#include "absl/time/clock.h"
 #include "server/service/fleet_service.h"
 
 namespace homing::server {
@@ -55,7 +56,7 @@ void Housekeeping::CountJourneys() {
 
 void Housekeeping::WarnOfExpiry() {
   for (const CertificateExpiry& expiry : ReadExpiries(certificates_)) {
-    const std::string warning = ExpiryWarning(expiry, WallClockNs() / 1'000'000'000);
+    const std::string warning = ExpiryWarning(expiry, absl::GetCurrentTimeNanos() / 1'000'000'000);
     if (!warning.empty()) {
       spdlog::warn("{}", warning);
     }
@@ -63,7 +64,7 @@ void Housekeeping::WarnOfExpiry() {
 }
 
 void Housekeeping::DeleteExpired() {
-  const std::int64_t now_ns = WallClockNs();
+  const std::int64_t now_ns = absl::GetCurrentTimeNanos();
   const std::int64_t trusted_ns = clock_.TrustedSince(now_ns, std::chrono::steady_clock::now());
   const auto deleted = core_->quota.DeleteExpired(now_ns, trusted_ns);
   if (!deleted.ok()) {

@@ -1,7 +1,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <chrono>
 #include <map>
 #include <memory>
 #include <string>
@@ -9,6 +8,8 @@
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
+#include "absl/time/clock.h"
+#include "absl/time/time.h"
 #include "client/command/commands.h"
 #include "client/command/json_line.h"
 #include "client/fleet_client.h"
@@ -34,9 +35,7 @@ const char* WordOf(State state) {
 
 std::string Ago(const v1::Robot& robot) {
   if (!robot.has_last_seen()) return "-";
-  const std::int64_t now = std::chrono::duration_cast<std::chrono::seconds>(
-                               std::chrono::system_clock::now().time_since_epoch())
-                               .count();
+  const std::int64_t now = absl::ToUnixSeconds(absl::Now());
   return absl::StrCat(std::max<std::int64_t>(0, now - robot.last_seen().seconds()), " s");
 }
 

@@ -1,7 +1,6 @@
 #include "client/opencv/video_source.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -13,6 +12,7 @@
 
 #include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
+#include "absl/time/clock.h"
 #include "homing/base/status_macros.h"
 
 namespace homing::client {
@@ -33,12 +33,6 @@ constexpr int kAttempts = 64;
 // Time between two frames of a file that says that some are missing.
 constexpr double kJumpMs = 500;
 constexpr double kJumpFrames = 5;
-
-std::int64_t NowNanoseconds() {
-  return std::chrono::duration_cast<std::chrono::nanoseconds>(
-             std::chrono::system_clock::now().time_since_epoch())
-      .count();
-}
 
 // An address without the name and password in it: texts end up in logs.
 std::string Shown(const std::string& path) {
@@ -99,7 +93,7 @@ class VideoSource : public FrameSource {
     }
     SourceFrame frame = ToFrame(image);
     frame.gap_before = std::exchange(gap_, false);
-    if (live_) frame.capture_time_ns = NowNanoseconds();
+    if (live_) frame.capture_time_ns = absl::GetCurrentTimeNanos();
     return std::make_optional(std::move(frame));
   }
 

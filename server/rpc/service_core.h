@@ -8,6 +8,7 @@
 #include <functional>
 #include <memory>
 
+#include "absl/time/clock.h"
 #include "homing/image/frame.h"
 #include "proto/wire/observation_conversion.h"
 #include "server/access/access_control.h"
@@ -50,13 +51,6 @@ inline storage::CommitQueueOptions QueueOptions(Metrics* metrics) {
   return options;
 }
 
-// Server's clock, nanoseconds since the epoch.
-inline std::int64_t WallClockNs() {
-  return std::chrono::duration_cast<std::chrono::nanoseconds>(
-             std::chrono::system_clock::now().time_since_epoch())
-      .count();
-}
-
 // The order of destruction is the reverse: first the workers, then the commit queue, then the
 // store.
 struct ServiceCore {
@@ -91,7 +85,7 @@ struct ServiceCore {
   // Null without all_journeys_index.
   const std::unique_ptr<FleetIndex> index;
   // Before the catalog, whose writers may hold a place on it.
-  FleetBoard fleet{WallClockNs};
+  FleetBoard fleet{absl::GetCurrentTimeNanos};
   JourneyCatalog catalog;
   // Null unless other servers write to the store.
   const std::unique_ptr<JourneyFollower> follower;
