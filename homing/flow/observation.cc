@@ -14,10 +14,8 @@
 namespace homing {
 namespace {
 
-std::string NameOf(std::size_t side) { return side == 0 ? "left" : "right"; }
-
 absl::Status WithSide(const absl::Status& status, std::size_t side) {
-  return Within(NameOf(side), status);
+  return Within(kCameraNames[side], status);
 }
 
 // True if finite and at most one image size outside the image.

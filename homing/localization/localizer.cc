@@ -8,8 +8,6 @@
 namespace homing {
 namespace {
 
-constexpr std::array<const char*, 2> kCameraNames{"left", "right"};
-
 absl::Status CheckSize(std::size_t index, const Camera& camera, const Camera& recorded) {
   if (camera.width == 0 || recorded.width == 0 ||
       (camera.width == recorded.width && camera.height == recorded.height)) {

@@ -16,8 +16,6 @@ namespace {
 
 constexpr std::size_t kMaxFingerprints = 100;
 
-std::string NameOf(std::size_t camera) { return camera == 0 ? "left" : "right"; }
-
 absl::Status CheckFingerprints(const SeenFingerprints& seen) {
   if (seen.landmarks.size() > kMaxFingerprints) {
     return MustBe("fingerprints", seen.landmarks.size(),
@@ -40,14 +38,15 @@ absl::StatusOr<QueryRobot> MeasureRobot(const LandmarkQuery& query, const Decode
   for (std::size_t side = 0; side < query.views.size(); ++side) {
     if (const auto* pair = std::get_if<FramePair>(&query.views[side])) {
       const auto image = DecodeGray(pair->first, limits);
-      HOMING_RETURN_IF_ERROR(Within(absl::StrCat(NameOf(side), ".frames.first"), image.status()));
+      HOMING_RETURN_IF_ERROR(
+          Within(absl::StrCat(kCameraNames[side], ".frames.first"), image.status()));
       robot.widths[side] = image->cols;
       robot.heights[side] = image->rows;
     } else if (const auto* flow = std::get_if<FlowField>(&query.views[side])) {
       robot.widths[side] = flow->width;
       robot.heights[side] = flow->height;
     } else if (const auto* seen = std::get_if<SeenFingerprints>(&query.views[side])) {
-      HOMING_RETURN_IF_ERROR(Within(NameOf(side), CheckFingerprints(*seen)));
+      HOMING_RETURN_IF_ERROR(Within(kCameraNames[side], CheckFingerprints(*seen)));
       robot.widths[side] = seen->width;
       robot.heights[side] = seen->height;
     }
