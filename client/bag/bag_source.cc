@@ -44,8 +44,8 @@ class BagSource : public FrameSource {
     return true;
   }
 
-  // Stamps: the times of recording differ from camera to camera by what the messages took on their
-  // way. Reads each message.
+  // The keys are the messages' stamps: the times of recording differ between cameras by the
+  // messages' delays. This reads each message.
   FrameKeys keys() const override {
     FrameKeys keys{FrameKeys::Kind::kTime, {}};
     keys.values.reserve(topic_->messages.size());
@@ -88,7 +88,7 @@ class BagSource : public FrameSource {
 
   std::string path_;
   std::unique_ptr<Bag> bag_;
-  // Of bag_.
+  // Points into bag_.
   const BagTopic* topic_;
   std::size_t next_ = 0;
   std::optional<Camera> camera_;

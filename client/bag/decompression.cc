@@ -14,7 +14,8 @@
 namespace homing::client::bag {
 namespace {
 
-// Output grows by at most this much at once: what is claimed is never allocated unseen.
+// The output grows by at most this much at once: a size that the file claims is never allocated
+// without data.
 constexpr std::uint64_t kPiece = std::uint64_t{1} << 20;
 
 // One step: consumes input, fills [out, out + room). DATA_LOSS.
@@ -30,7 +31,7 @@ absl::StatusOr<std::string> Run(std::string_view bytes, std::uint64_t most, cons
   std::string result;
   while (true) {
     const std::size_t before = result.size();
-    // One byte more than allowed, so that more than that is noticed.
+    // Leaves room for one byte more than allowed, so that a longer output is detected.
     const std::uint64_t room = std::min(kPiece, most + 1 - before);
     result.resize(before + static_cast<std::size_t>(room));
     HOMING_ASSIGN_OR_RETURN(const Progress progress,

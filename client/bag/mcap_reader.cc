@@ -20,7 +20,7 @@ namespace {
 constexpr std::uint64_t kHeadBytes = 9;
 // Channel, sequence number and two times before a message's bytes.
 constexpr std::uint64_t kMessageHeadBytes = 22;
-// Far more than what a chunk has before its records.
+// More than the bytes of a chunk before its records.
 constexpr std::uint64_t kChunkHeadBytes = 256;
 
 struct ChunkHead {
@@ -54,7 +54,8 @@ class McapReader : public ChunkedBag {
   absl::Status TakeSchema(std::string_view record);
   absl::Status TakeChannel(std::string_view record);
   absl::Status TakeIndex(std::string_view record);
-  // Of one that begins at `offset` of the file, or of the chunk at `chunk`; only its head is read.
+  // Adds the message that begins at `offset` of the file, or of the chunk at `chunk`; reads only
+  // its head.
   absl::Status TakeMessage(std::string_view head, std::int64_t chunk, std::uint64_t offset);
   absl::StatusOr<ChunkHead> ReadChunkHead(std::uint64_t offset) const;
 

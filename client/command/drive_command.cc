@@ -119,7 +119,7 @@ HomeDriveOptions OptionsOf(const DriveFlags& flags, const SimulationSpec& home) 
   options.start_heading = flags.start_heading_deg * kDegree;
   options.delay_s = flags.delay_ms / 1000;
   options.lost = flags.lost;
-  // It gives up after five times the time that the way needs.
+  // The robot gives up after five times the time that the way needs.
   options.most_s = 60 + 5 * home.length_m / options.pilot.most_speed_mps;
   return options;
 }

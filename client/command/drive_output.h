@@ -1,4 +1,4 @@
-// What `homing drive` prints and writes.
+// The output of `homing drive`.
 #ifndef CLIENT_COMMAND_DRIVE_OUTPUT_H_
 #define CLIENT_COMMAND_DRIVE_OUTPUT_H_
 
@@ -10,7 +10,7 @@
 
 namespace homing::client {
 
-// Home is reached within this, m.
+// The robot has reached home within this distance, m.
 inline constexpr double kAtHomeM = 1;
 
 // A line for each frame and the verdict, on stdout; drive.png and drive.csv in `folder`, if it is

@@ -35,7 +35,7 @@ struct Target {
   std::int64_t base = 0;
 };
 
-// What the robot's cameras are, as the flags or the sources say.
+// Models of the robot's cameras, as the flags or the sources give them.
 using CameraModels = std::array<std::optional<v1::Camera>, 2>;
 
 absl::StatusOr<v1::CreateJourneyRequest> MakeCreateRequest(const RecordFlags& flags,
@@ -86,7 +86,7 @@ absl::StatusOr<Target> OpenTarget(JourneyClient& journeys, const RecordFlags& fl
   target.journey = *found;
   target.base = BaseOfMark(found->source_mark(), mark);
   if (target.base <= 0 && !flags.resume) {
-    // The same source: other settings, or another writer.
+    // base is 0: the source is the same, but the settings or the writer differ.
     return target.base == 0 ? created.status() : OtherSource(*found);
   }
   if (target.base <= 0) target.base = found->next_sequence();

@@ -98,7 +98,7 @@ absl::Status Follow(const Session& session) {
         std::vector<v1::Robot> all;
         all.reserve(robots.size());
         for (const auto& [name, robot] : robots) all.push_back(robot);
-        // Home, and clear what is below: the table is drawn over the one before.
+        // Cursor home, then clear below: the table replaces the previous one.
         HOMING_RETURN_IF_ERROR(session.Print("\x1b[H\x1b[J"));
         return PrintRobots(session, std::move(all));
       });

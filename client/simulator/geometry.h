@@ -1,5 +1,4 @@
-// Vectors and poses of the simulated world: x and y on the ground, z up, metres. Source: own
-// design.
+// Vectors and poses of the simulated world: x and y on the ground, z up, metres.
 #ifndef CLIENT_SIMULATOR_GEOMETRY_H_
 #define CLIENT_SIMULATOR_GEOMETRY_H_
 
@@ -75,11 +74,11 @@ struct Ray {
   double y = 0;
 };
 
-// Nothing nearer than this is seen, m.
+// The camera sees nothing nearer than this, m.
 inline constexpr double kNearest = 0.05;
-// The depth of what is infinitely far, m.
+// The depth of an infinitely distant surface, m.
 inline constexpr double kFarAway = 1e9;
-// The depth of nothing at all.
+// The depth of a ray that hits no surface.
 inline constexpr double kNothing = 1e30;
 
 }  // namespace homing::client

@@ -1,4 +1,4 @@
-// The surfaces along a route and what they look like.
+// The surfaces along a route and their appearance.
 #ifndef CLIENT_SIMULATOR_SCENE_H_
 #define CLIENT_SIMULATOR_SCENE_H_
 
@@ -42,7 +42,7 @@ class Scene {
   double sky_grey() const { return sky_grey_; }
   const std::vector<Surface>& surfaces() const { return surfaces_; }
 
-  // Farther along the route nothing but background is seen.
+  // Beyond this distance along the route a camera sees only background.
   static constexpr double kReachM = 60;
 
  private:

@@ -20,7 +20,7 @@ struct Parallelogram {
   Vector3 edge_v;
 };
 
-// Upright, without caps: what it stands on and its top are not seen from its side.
+// Upright, without caps: top and bottom are not visible from its side.
 struct Cylinder {
   Vector2 center;
   double radius = 1;

@@ -10,11 +10,11 @@
 namespace homing::client {
 namespace {
 
-// Bad frames that are reported one by one.
+// Number of bad frames that are reported one by one.
 constexpr std::int64_t kReported = 5;
 constexpr double kNanoseconds = 1e9;
 
-// Rates that differ by less are one.
+// Rates that differ by a smaller fraction count as equal.
 constexpr double kSameRate = 0.01;
 
 FrameKeys TimesAtRate(const FrameSource& camera) {
@@ -121,7 +121,7 @@ absl::StatusOr<std::optional<SourceFrame>> CameraInstants::ReadFrame(std::size_t
     position_[camera] = target;
   }
   auto frame = source.Next();
-  // A camera gives the frames between too.
+  // A live camera also delivers the frames in between.
   while (source.live() && frame.ok() && *frame && position_[camera] < index) {
     ++position_[camera];
     frame = source.Next();

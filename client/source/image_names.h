@@ -1,4 +1,4 @@
-// What the names of image files say about their order and time.
+// Order and time of image files by their names.
 #ifndef CLIENT_SOURCE_IMAGE_NAMES_H_
 #define CLIENT_SOURCE_IMAGE_NAMES_H_
 
@@ -11,7 +11,7 @@
 
 namespace homing::client {
 
-// Whether the name ends as image files do that can be read.
+// True if the name has the ending of a readable image format.
 bool HasImageEnding(const std::string& path);
 
 // Nanoseconds: a decimal number is seconds; a whole number of 12 digits and more is milliseconds,

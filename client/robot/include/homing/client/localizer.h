@@ -51,8 +51,8 @@ struct Answer {
   Direction direction = Direction::kUnknown;
   // Steps of the journey an observation; negative towards home. Unset before the robot has moved.
   std::optional<double> speed_ratio = {};
-  // Turn beyond what following the outbound path needs, to the robot's left: radians where the
-  // focal length is known, else pixels. Unset without two cameras.
+  // Change of the heading relative to the outbound path, to the robot's left: radians if the focal
+  // length is known, else pixels. Unset without two cameras.
   std::optional<double> turn = {};
   // Metres to the robot's left of the outbound path divided by the distance of the seen objects.
   // Unset without two cameras.
