@@ -190,7 +190,8 @@ absl::StatusOr<Diagnosis> Examine(const std::string& path) {
 
 absl::StatusOr<Diagnosis> Salvage(const std::string& path, const std::string& to) {
   if (IsPostgresUrl(path)) {
-    return absl::InvalidArgumentError("--salvage is for SQLite files; restore PostgreSQL's backup");
+    return absl::InvalidArgumentError(
+        "--salvage works on SQLite files only; restore a backup of PostgreSQL");
   }
   // Read first, so that no file is created when nothing can be read.
   HOMING_RETURN_IF_ERROR(OpenForReading(path, kBusyTimeoutMs).status());

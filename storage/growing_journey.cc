@@ -24,15 +24,15 @@ absl::Status CheckContinues(const GrowingJourney& journey, const JourneyAppend& 
                                            journey.epoch, ", not ", append.epoch, ")"));
   }
   if (append.sequence != journey.next_sequence) {
-    return absl::OutOfRangeError(absl::StrCat("sequence is ", append.sequence, ": ",
-                                              journey.next_sequence, " is due in journey '",
+    return absl::OutOfRangeError(absl::StrCat("sequence: ", append.sequence, " must be ",
+                                              journey.next_sequence, ", the next of journey '",
                                               append.journey, "'"));
   }
   if (journey.input != InputKind::kUnknown && append.input != InputKind::kUnknown &&
       journey.input != append.input) {
-    return absl::FailedPreconditionError(absl::StrCat("input is ", Word(append.input),
-                                                      ": journey '", append.journey,
-                                                      "' is recorded from ", Word(journey.input)));
+    return absl::FailedPreconditionError(
+        absl::StrCat("input: ", Word(append.input), " must be ", Word(journey.input),
+                     ", as before in journey '", append.journey, "'"));
   }
   return absl::OkStatus();
 }

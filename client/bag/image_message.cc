@@ -13,7 +13,7 @@ namespace homing::client::bag {
 namespace {
 
 absl::Status Short(const BagTopic& topic) {
-  return absl::DataLossError(absl::StrCat("the message is no whole ", topic.type));
+  return absl::DataLossError(absl::StrCat("the message is not a complete ", topic.type));
 }
 
 absl::StatusOr<SourceFrame> Compressed(std::string_view data, std::string_view format) {

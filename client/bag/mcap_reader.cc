@@ -136,8 +136,9 @@ absl::StatusOr<ChunkHead> McapReader::ReadChunkHead(std::uint64_t offset) const 
 absl::StatusOr<std::string> McapReader::LoadChunk(std::uint64_t offset) {
   HOMING_ASSIGN_OR_RETURN(const ChunkHead head, ReadChunkHead(offset));
   if (head.size > limits_.max_chunk || head.records_size > limits_.max_chunk) {
-    return absl::ResourceExhaustedError(absl::StrCat(
-        "it has ", std::max(head.size, head.records_size), " bytes; most is ", limits_.max_chunk));
+    return absl::ResourceExhaustedError(absl::StrCat("it has ",
+                                                     std::max(head.size, head.records_size),
+                                                     " bytes; the limit is ", limits_.max_chunk));
   }
   HOMING_ASSIGN_OR_RETURN(const std::string bytes,
                           file_.Read(offset + head.records_offset, head.records_size));
@@ -201,8 +202,8 @@ absl::Status McapReader::Scan() {
   }
   EndChunk(/*complete=*/whole);
   if (!whole) {
-    ReportDamage(absl::StrCat(file_.path(), " ends too early; what lies behind byte ", offset,
-                              " of ", file_.size(), " is not read"));
+    ReportDamage(absl::StrCat(file_.path(), " ends too early; the bytes after ", offset, " of ",
+                              file_.size(), " are not read"));
   }
   SortTopics();
   return absl::OkStatus();

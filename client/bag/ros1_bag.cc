@@ -143,7 +143,7 @@ absl::StatusOr<std::string> Ros1Bag::LoadChunk(std::uint64_t offset) {
   const std::uint64_t size = fields.As<std::uint32_t>("size");
   if (size > limits_.max_chunk || head.data_size > limits_.max_chunk) {
     return absl::ResourceExhaustedError(absl::StrCat("it has ", std::max(size, head.data_size),
-                                                     " bytes; most is ", limits_.max_chunk));
+                                                     " bytes; the limit is ", limits_.max_chunk));
   }
   HOMING_ASSIGN_OR_RETURN(const std::string bytes, file_.Read(head.data_offset, head.data_size));
   return Decompress(fields.Text("compression"), bytes, size);
@@ -193,8 +193,8 @@ absl::Status Ros1Bag::Scan() {
   const bool whole = offset >= file_.size();
   EndChunk(/*complete=*/false);
   if (!whole) {
-    ReportDamage(absl::StrCat(file_.path(), " ends too early; what lies behind byte ", offset,
-                              " of ", file_.size(), " is not read"));
+    ReportDamage(absl::StrCat(file_.path(), " ends too early; the bytes after ", offset, " of ",
+                              file_.size(), " are not read"));
   }
   SortTopics();
   return absl::OkStatus();

@@ -46,11 +46,11 @@ void AddFrameChoice(CLI::App& command, FrameChoice& frames) {
       ->capture_default_str();
   command
       .add_option("--fps", frames.fps,
-                  "Take at most so many frames a second, by the times of the source [all]")
+                  "Take at most this many frames a second, by the times of the source [all]")
       ->check(CLI::Range(1e-3, 1e4));
   command
       .add_option("--seconds", frames.seconds,
-                  "End after so many seconds of the source [at its end]")
+                  "End after this many seconds of the source [at its end]")
       ->check(CLI::Range(1e-3, 1e9));
   command.add_flag("--strict", frames.strict,
                    "End at a bad frame (empty, damaged, of another size) instead of skipping and "

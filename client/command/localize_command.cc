@@ -157,8 +157,8 @@ absl::Status Localize(const Session& session, const LocalizeFlags& flags) {
 }  // namespace
 
 void AddLocalizeCommand(CLI::App& app, Session& session) {
-  CLI::App& command =
-      *app.add_subcommand("localize", "Stream what the robot sees; one answer an observation");
+  CLI::App& command = *app.add_subcommand(
+      "localize", "Stream a robot's frames or flow; each observation gets one answer");
   auto flags = std::make_shared<LocalizeFlags>();
   AddJourneyFlag(command, flags->journey, /*wildcards=*/true);
   AddRobotFlags(command, flags->robot);

@@ -108,8 +108,8 @@ absl::Status Follow(const Session& session) {
 }  // namespace
 
 void AddTopCommand(CLI::App& app, Session& session) {
-  CLI::App& command =
-      *app.add_subcommand("top", "The robots and what they do, lost ones first, as it changes");
+  CLI::App& command = *app.add_subcommand(
+      "top", "Show the robots and their activity, lost ones first, as it changes");
   auto once = std::make_shared<bool>(false);
   command.add_flag("--once", *once, "Print the present state and end, as into a pipe");
   command.callback([once, &session] {

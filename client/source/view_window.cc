@@ -127,7 +127,7 @@ absl::StatusOr<cv::Mat> ReadMask(const std::string& path) {
   if (!mask.ok()) return Within(path, mask.status());
   const cv::Mat used = *mask > kHalf;
   if (cv::countNonZero(used) == 0) {
-    return absl::InvalidArgumentError(absl::StrCat(path, " is black: it leaves nothing to see"));
+    return absl::InvalidArgumentError(absl::StrCat(path, " is black: no pixel would be used"));
   }
   return *std::move(mask);
 }

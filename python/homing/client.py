@@ -132,7 +132,7 @@ class Client:
         """Records a journey; gives an answer for each observation once it is durable. What became
         durable just before the link broke has no answer.
 
-        A broken link is restored. When the program runs again with the same writer, it goes on where
+        A broken link is restored. When the program runs again with the same writer, it continues where
         it stopped: the observations that the server has are left out, or, with `live`, new ones
         follow behind a break. `finish` closes the journey at the end.
         """

@@ -120,7 +120,7 @@ absl::StatusOr<std::string> AccessControl::IdentityOfToken(const Credentials& cr
   auto identity = tokens->Find(header.substr(kBearerSize));
   if (!identity) identity = FindLent(header.substr(kBearerSize));
   if (!identity) {
-    return Unauthenticated("BAD_TOKEN", "the token is not one of this server's");
+    return Unauthenticated("BAD_TOKEN", "this server does not know the token");
   }
   return *std::move(identity);
 }

@@ -110,7 +110,8 @@ absl::Status CheckTooLarge(std::size_t size) {
 // The message between magic and checksum.
 absl::StatusOr<v1::JourneyMap> Unwrap(std::string_view bytes) {
   HOMING_RETURN_IF_ERROR(CheckTooLarge(bytes.size()));
-  if (bytes.substr(0, kMagic.size()) != kMagic) return Damaged("does not begin as one");
+  if (bytes.substr(0, kMagic.size()) != kMagic)
+    return Damaged("has other first bytes: another kind of file");
   if (bytes.size() < kHeaderBytes + kChecksumBytes) return Damaged("ends too early");
   const char version = bytes[kMagic.size()];
   if (version < kVersionBefore || version > kVersion) {
@@ -118,7 +119,7 @@ absl::StatusOr<v1::JourneyMap> Unwrap(std::string_view bytes) {
   }
   const std::string_view content = bytes.substr(0, bytes.size() - kChecksumBytes);
   if (Checksum(content) != bytes.substr(content.size())) {
-    return Damaged("checksum does not agree: truncated or changed");
+    return Damaged("wrong checksum: the file is truncated or changed");
   }
   v1::JourneyMap message;
   const std::string_view body = content.substr(kHeaderBytes);
@@ -277,7 +278,7 @@ absl::StatusOr<ArchivedJourney> DecodeJourney(std::string_view bytes) {
   journey.record.resend_from = journey.record.next_sequence;
   // Each map has exactly one file: a file that this program would write differently is refused.
   HOMING_ASSIGN_OR_RETURN(const std::string again, EncodeAs(version, journey.record, journey.map));
-  if (again != bytes) return Damaged("holds something that this program does not know");
+  if (again != bytes) return Damaged("has content that this program does not know");
   return journey;
 }
 

@@ -63,7 +63,8 @@ absl::StatusOr<std::unique_ptr<PgConnection>> PgConnection::Open(const std::stri
       "homing-server", access == Access::kReadWrite ? "read-write" : "any", url.c_str(), nullptr};
   std::unique_ptr<PgConnection> connection(
       new PgConnection(PQconnectStartParams(names, values, /*expand_dbname=*/1)));
-  if (connection->connection_ == nullptr) return absl::ResourceExhaustedError("store: no memory");
+  if (connection->connection_ == nullptr)
+    return absl::ResourceExhaustedError("store: out of memory");
   HOMING_RETURN_IF_ERROR(connection->Connect(deadline));
   return connection;
 }

@@ -49,8 +49,8 @@ absl::Status CheckLeaseRow(PgConnection& connection, const std::string& name,
   return absl::AbortedError(
       absl::StrCat("journey '", name,
                    "': another writer records it through another server, and its lease of"
-                   " 15 s lasts ",
-                   rows.Integer(0, 0), " ms more"));
+                   " 15 s ends in ",
+                   rows.Integer(0, 0), " ms"));
 }
 
 absl::StatusOr<std::int64_t> AcquireJourneyRow(PgConnection& connection, const std::string& name,
