@@ -22,6 +22,7 @@ namespace homing::client {
 // Opens the named sources; at least one. Errors of OpenFrameSource.
 absl::StatusOr<Cameras> OpenCameras(const std::string& left, const std::string& right);
 
+// Not thread-safe, except FrameOf.
 class CameraObservations : public ObservationStream {
  public:
   // With `flow` set, observations hold flow vectors, one for each instant that makes a step: the

@@ -12,6 +12,7 @@
 
 namespace homing::server {
 
+// The calls run on their own threads; the methods below are not thread-safe.
 class HomingServer {
  public:
   // `clock` is the steady time for leases; default: the machine's. INVALID_ARGUMENT (options);

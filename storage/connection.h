@@ -20,7 +20,7 @@ namespace homing::storage {
 inline constexpr int kBusyTimeoutMs = 5000;
 
 // One use of a prepared statement; the destructor resets it. Its members throw SQLite::Exception,
-// so that they may be used in the body of a transaction only.
+// so that they may be used in the body of a transaction only. Not thread-safe.
 class Query {
  public:
   explicit Query(SQLite::Statement* statement) : statement_(statement) {}

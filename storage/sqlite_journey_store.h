@@ -21,6 +21,7 @@
 
 namespace homing::storage {
 
+// Thread-safe, as every JourneyStore.
 class SqliteJourneyStore final : public JourneyStore {
  public:
   // `lock` and `queries` are null for a store in memory, which has one connection. `writer` is null

@@ -17,7 +17,7 @@
 namespace homing::storage {
 
 // The appends of successive transactions. A journey's row changes with each append: it is read
-// once, written once a transaction, and kept for the next one.
+// once, written once a transaction, and kept for the next one. Not thread-safe.
 class StepAppends {
  public:
   explicit StepAppends(Connection* connection) : connection_(connection) {}

@@ -18,6 +18,7 @@
 
 namespace homing::client::bag {
 
+// Not thread-safe.
 class ChunkedBag : public Bag {
  protected:
   ChunkedBag(BagFile file, const BagLimits& limits) : file_(std::move(file)), limits_(limits) {}

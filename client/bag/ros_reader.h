@@ -13,7 +13,7 @@
 namespace homing::client::bag {
 
 // As ByteReader: a read beyond the end gives 0 or empty, and ok() is then false. Does not own the
-// bytes.
+// bytes. Not thread-safe.
 class RosReader {
  public:
   RosReader(Wire wire, std::string_view bytes)

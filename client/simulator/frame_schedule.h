@@ -9,7 +9,7 @@
 
 namespace homing::client {
 
-// The cost does not depend on the length of the drive.
+// The cost does not depend on the length of the drive. Immutable.
 class FrameSchedule {
  public:
   // The spec must be valid; `taken` frames are taken on the drive.

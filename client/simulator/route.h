@@ -22,6 +22,7 @@ struct RouteBend {
   static constexpr double kCornerM = 8;
 };
 
+// Immutable.
 class Route {
  public:
   Route(double length_m, const RouteBend& bend);

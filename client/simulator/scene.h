@@ -30,6 +30,7 @@ struct Surface {
   double route_m = 0;
 };
 
+// Immutable.
 class Scene {
  public:
   Scene(std::vector<Surface> surfaces, const Material& ground, const Material& skyline,

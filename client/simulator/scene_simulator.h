@@ -15,6 +15,7 @@ namespace homing::client {
 // Over the ground.
 inline constexpr double kCameraHeightM = 1;
 
+// Immutable.
 class SceneSimulator final : public Simulator {
  public:
   // The spec must be valid; its scene, seed and remove are what `scene` was made with.

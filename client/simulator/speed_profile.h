@@ -7,6 +7,7 @@
 
 namespace homing::client {
 
+// Immutable.
 class SpeedProfile {
  public:
   // `vary`: 0 a constant speed, 1 from kSlowest to kFastest times `speed_m_s`.

@@ -10,6 +10,7 @@
 
 namespace homing::client {
 
+// Immutable.
 class Trajectory {
  public:
   // The spec must be valid.

@@ -15,7 +15,8 @@
 namespace homing {
 
 // Its state is a function of the fingerprints of the last max_track_gap_steps + 1 steps and of the
-// number of landmarks so far, all of which are durable: a recording resumes exactly.
+// number of landmarks so far, all of which are durable: a recording resumes exactly. Not
+// thread-safe.
 class LandmarkTracker {
  public:
   // REQUIRES: Validate(options).ok().

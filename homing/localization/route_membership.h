@@ -5,7 +5,7 @@
 namespace homing {
 
 // The logarithm of the odds of being on the route, bounded: however long a route has fitted,
-// another may begin.
+// another may begin. Not thread-safe.
 class RouteMembership {
  public:
   // REQUIRES: 0 <= off_route_prior < 1.

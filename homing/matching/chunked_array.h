@@ -9,7 +9,7 @@
 
 namespace homing {
 
-// kChunk elements are allocated at a time; a power of two.
+// kChunk elements are allocated at a time; a power of two. Not thread-safe.
 template <typename T, std::size_t kChunk>
 class ChunkedArray {
  public:

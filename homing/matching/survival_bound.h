@@ -14,7 +14,7 @@
 namespace homing {
 
 // Steps are 1/16 of an octave of the squared distance wide: the bounds are at most 1 - F of a
-// distance 3 % smaller, and at least that of one 3 % greater. 6.4 kB.
+// distance 3 % smaller, and at least that of one 3 % greater. 6.4 kB. Immutable.
 class SurvivalBound {
  public:
   explicit SurvivalBound(const DeviationModel& model);

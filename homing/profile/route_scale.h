@@ -20,7 +20,7 @@ enum class CameraDirection { kUnknown = 0, kAcross = 1, kAlong = 2, kMixed = 3 }
 
 // The odometer of one camera: log2 of the flow that measures motion. Which flow this is depends on
 // where the camera looks: the median length across the direction of travel, the spread along it,
-// and a weighted mean of both for an oblique camera.
+// and a weighted mean of both for an oblique camera. Immutable.
 class CameraOdometer {
  public:
   // Units of a reading: 1/20 octave.

@@ -29,7 +29,7 @@ struct CertificateRequest {
   std::chrono::seconds ends_in = std::chrono::hours(24 * 365);
 };
 
-// Keys are P-256. INTERNAL: OpenSSL fails.
+// Keys are P-256. INTERNAL: OpenSSL fails. Not thread-safe.
 class CertificateAuthority {
  public:
   // Makes an authority with a new key.

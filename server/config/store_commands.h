@@ -9,7 +9,7 @@
 
 namespace homing::server {
 
-// Adds the subcommands to the command line.
+// Adds the subcommands to the command line. Not thread-safe.
 class StoreCommands {
  public:
   // Both must outlive the object.

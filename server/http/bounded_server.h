@@ -15,6 +15,8 @@
 
 namespace homing::server {
 
+// The library calls the handlers on up to kThreads threads at a time. UseCertificate is
+// thread-safe.
 class BoundedServer final : public httplib::Server {
  public:
   // A thread a connection: browsers keep some open, and each event stream holds one.

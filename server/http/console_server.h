@@ -34,6 +34,7 @@ struct ConsoleContext {
   std::function<bool()> healthy;
 };
 
+// Thread-safe; it serves on its own threads.
 class ConsoleServer {
  public:
   // UNAVAILABLE: the address is in use or not available; INVALID_ARGUMENT: the TLS files are bad.

@@ -18,6 +18,7 @@
 
 namespace homing::server {
 
+// Belongs to one call. Several threads may use it, one after the other; Finish is thread-safe.
 class IncomingCall {
  public:
   // Runs on gRPC's thread when the method begins.

@@ -23,8 +23,7 @@ inline Deadline After(std::chrono::milliseconds time) {
   return std::chrono::steady_clock::now() + time;
 }
 
-// The rows of one statement: bigint, double precision, text and bytea, in
-// binary.
+// The rows of one statement: bigint, double precision, text and bytea, in binary. Immutable.
 class PgRows {
  public:
   explicit PgRows(PGresult* result) : result_(result, &PQclear) {}

@@ -15,6 +15,7 @@
 
 namespace homing::storage::postgres {
 
+// Thread-safe, as every JourneyStore.
 class PostgresJourneyStore final : public JourneyStore {
  public:
   // Migrates the tables unless read-only, and shows from now on that this server is alive. Errors
