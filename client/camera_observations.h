@@ -93,7 +93,7 @@ class CameraObservations : public ObservationStream {
   mutable Mutex mutex_;
   // Sequence of the first mark.
   std::int64_t marks_from_ HOMING_GUARDED_BY(mutex_) = 0;
-  // One for each observation that was read.
+  // One mark for each observation that was read.
   std::vector<Mark> marks_ HOMING_GUARDED_BY(mutex_);
 };
 

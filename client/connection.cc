@@ -83,7 +83,7 @@ grpc::ChannelArguments MakeArguments(const std::string& address) {
   arguments.SetInt(GRPC_ARG_MIN_RECONNECT_BACKOFF_MS, 5000);
   arguments.SetInt(GRPC_ARG_MAX_RECONNECT_BACKOFF_MS, kMaxReconnectBackoffMs);
   arguments.SetInt(GRPC_ARG_ENABLE_HTTP_PROXY, MayUseProxy(address) ? 1 : 0);
-  // After a failure the name is resolved again at once: by default only every 30 s.
+  // Resolves the name again at once after a failure; the default is every 30 s.
   arguments.SetInt(GRPC_ARG_DNS_MIN_TIME_BETWEEN_RESOLUTIONS_MS, kMaxReconnectBackoffMs);
   // Each Connection has its own TCP connection, so that a program with several does not lose all at
   // once.

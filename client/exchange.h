@@ -1,4 +1,5 @@
-// One attempt of a bidirectional stream: sends observations within a window, receives answers.
+// Makes one attempt of a bidirectional stream: sends observations within a window, and receives
+// answers.
 #ifndef CLIENT_EXCHANGE_H_
 #define CLIENT_EXCHANGE_H_
 

@@ -16,9 +16,9 @@ namespace homing::storage {
 // that this program does not write.
 using StepReader = std::function<absl::StatusOr<std::optional<JourneyStep>>()>;
 
-// From all rows. DATA_LOSS: they contradict each other or the record.
+// Makes the map from all rows. DATA_LOSS: they contradict each other or the record.
 absl::StatusOr<JourneyMap> AssembleMap(const JourneyRecord& record, const StepReader& next);
-// From the rows from FirstTailStep on. DATA_LOSS.
+// Makes the tail from the rows from FirstTailStep on. DATA_LOSS.
 absl::StatusOr<JourneyTail> AssembleTail(const JourneyRecord& record, std::int64_t last_sequence,
                                          const StepReader& next);
 absl::StatusOr<std::vector<JourneyStep>> AssembleSteps(const JourneyRecord& record,

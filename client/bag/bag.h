@@ -19,7 +19,7 @@ enum class Content { kOther, kRawImage, kCompressedImage, kCameraInfo };
 struct MessagePlace {
   // Nanoseconds; when it was recorded.
   std::int64_t time_ns = 0;
-  // Where its chunk begins in the file; -1: it lies in none.
+  // Offset of its chunk in the file; -1: it is in no chunk.
   std::int64_t chunk = -1;
   std::int64_t offset = 0;
   std::uint32_t channel = 0;

@@ -62,7 +62,8 @@ class BagSource : public FrameSource {
   std::optional<Camera> camera() const override { return camera_; }
   std::string remark() const override { return bag_->damage(); }
 
-  // From the first message of the camera_info topic; a camera that is not calibrated gives none.
+  // Reads the camera from the first message of the camera_info topic; an uncalibrated camera gives
+  // none.
   absl::Status ReadCamera() {
     const BagTopic* const info_topic = FindCameraInfo(bag_->topics(), *topic_);
     if (info_topic == nullptr) return absl::OkStatus();

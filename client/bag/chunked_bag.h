@@ -30,7 +30,7 @@ class ChunkedBag : public Bag {
 
   // A message of an unknown or an uninteresting channel is left out.
   void AddMessage(const MessagePlace& place);
-  // For channels of unknown meaning, too.
+  // Call it for channels of unknown content, too.
   void SetChannel(std::uint32_t channel, std::size_t topic) { channels_[channel] = topic; }
 
   // While scanning the file: a chunk record, index records behind it, any other record or the end.

@@ -19,7 +19,7 @@ struct Pose {
   double heading = 0;
 
   Vector2 Along() const { return {std::cos(heading), std::sin(heading)}; }
-  // To the left of the outbound direction.
+  // Unit vector to the left of the outbound direction.
   Vector2 Left() const { return {-std::sin(heading), std::cos(heading)}; }
   // A point of the ground this far along and to the left.
   Vector2 At(double along_m, double left_m) const {

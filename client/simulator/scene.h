@@ -11,7 +11,7 @@ namespace homing::client {
 
 // Grey value: mean + contrast * texture, the texture in [-1, 1] with deviation 0.5.
 struct Material {
-  // Of the pool, TextureKind.
+  // Index of the texture in the pool, TextureKind.
   int texture = 0;
   // Side of one tile, m.
   double tile_m = 3;
@@ -26,7 +26,7 @@ struct Surface {
   Material material;
   // Number along the route, -1: background.
   int landmark = -1;
-  // Where along the route.
+  // Place along the route, m.
   double route_m = 0;
 };
 
@@ -47,7 +47,7 @@ class Scene {
   static constexpr double kReachM = 60;
 
  private:
-  // In order of route_m.
+  // Sorted by route_m.
   std::vector<Surface> surfaces_;
   Surface ground_;
   Surface skyline_;

@@ -31,7 +31,7 @@ class SpeedProfile {
   // Phases of the speed's waves.
   double slow_phase_ = 0;
   double quick_phase_ = 0;
-  // At every kSpacingM of the drive; empty if the speed is constant.
+  // Times at every kSpacingM of the drive; empty if the speed is constant.
   std::vector<double> times_s_;
 };
 

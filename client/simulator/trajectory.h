@@ -1,4 +1,4 @@
-// Where the robot is at each frame.
+// The robot's place at each frame.
 #ifndef CLIENT_SIMULATOR_TRAJECTORY_H_
 #define CLIENT_SIMULATOR_TRAJECTORY_H_
 

@@ -18,7 +18,7 @@ struct WheeledRobotOptions {
   // Deviation of speed and turn rate from the command, as a fraction of it, changing kNoiseHz times
   // a second. [0, 1].
   double noise = 0.05;
-  // Between the wheels, m. Above 0.
+  // Distance between the wheels, m. Above 0.
   double track_m = 0.6;
   std::uint64_t seed = 1;
 

@@ -58,10 +58,10 @@ class CameraInstants {
   static absl::StatusOr<std::unique_ptr<CameraInstants>> Create(Cameras cameras,
                                                                 const FrameChoice& choice);
 
-  // Nothing at the end. INVALID_ARGUMENT: with `strict`, a bad frame; no frame is usable at all.
-  // DATA_LOSS: a video ends before the number of frames that it promises.
+  // The next instant; nothing at the end. INVALID_ARGUMENT: with `strict`, a bad frame; no frame is
+  // usable at all. DATA_LOSS: a video ends before the number of frames that it promises.
   absl::StatusOr<std::optional<Instant>> Next();
-  // Where the next instant will be read.
+  // The place from which the next instant will be read.
   Place place() const { return peeked_ ? peeked_from_ : place_; }
   // Goes back or forward to a place that place() gave. False: a live source.
   bool GoTo(const Place& place);

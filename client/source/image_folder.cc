@@ -70,7 +70,7 @@ absl::StatusOr<std::string> ReadBytes(const std::string& path) {
   return bytes;
 }
 
-// By the first bytes, independent of the file's name.
+// The encoding by the first bytes, independent of the file's name.
 std::optional<FrameEncoding> EncodingOf(const std::string& bytes) {
   if (bytes.rfind("\xff\xd8", 0) == 0) return FrameEncoding::kJpeg;
   if (bytes.rfind("\x89PNG", 0) == 0) return FrameEncoding::kPng;

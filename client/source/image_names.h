@@ -25,9 +25,9 @@ bool NaturalLess(const std::string& a, const std::string& b);
 // one has a point; else by NaturalLess.
 void SortByName(std::vector<std::string>* paths);
 
-// Of sorted paths. Times: decimal numbers are seconds; whole numbers of 12 digits and more are
-// milliseconds, microseconds or nanoseconds by their size. Else the last number in each name, if it
-// ascends. Else kOrder.
+// The keys of sorted paths. Times: decimal numbers are seconds; whole numbers of 12 digits and more
+// are milliseconds, microseconds or nanoseconds by their size. Else the last number in each name,
+// if it ascends. Else kOrder.
 FrameKeys KeysOfNames(const std::vector<std::string>& paths);
 
 }  // namespace homing::client

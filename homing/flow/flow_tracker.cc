@@ -57,7 +57,7 @@ absl::Status Prepare(const cv::Mat& gray, const FlowOptions& options,
   return absl::OkStatus();
 }
 
-// Where points of one frame are in another, and which were found.
+// The places of points in another frame, and whether they were found.
 struct Tracks {
   std::vector<cv::Point2f> ends;
   std::vector<unsigned char> found;

@@ -139,7 +139,7 @@ absl::StatusOr<ObservedFlow> ObservationFlow::Compute(const Observation& observa
   if (checked[0].size.area() == 0 && checked[1].size.area() == 0) {
     return FieldError("left", "must be set unless right is");
   }
-  // Nothing below fails, unless it is cancelled.
+  // From here on nothing fails, except by cancellation.
   for (std::size_t side = 0; side < 2; ++side) {
     if (checked[side].size.area() != 0) sizes_[side] = checked[side].size;
   }

@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <string>
 
-// After <cstdio>, which it needs.
+// jpeglib.h needs <cstdio> before it.
 #include <jerror.h>
 #include <jpeglib.h>
 

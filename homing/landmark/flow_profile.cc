@@ -39,7 +39,7 @@ inline float Log2(float value) {
 // Sums over the vectors around each cell, bilinear weights.
 struct CellSums {
   std::array<float, FlowProfile::kCells> weight{};
-  // Of weight times log2 of the flow.
+  // Sums of weight times log2 of the flow.
   std::array<float, FlowProfile::kCells> log_flow{};
   float vectors = 0;
   float all_log_flow = 0;
@@ -84,7 +84,7 @@ std::uint8_t ParallaxCode(float octaves) {
       std::clamp(code, 1.0F, static_cast<float>(FlowProfile::kMaxCode)));
 }
 
-// Where each vector's midpoint lies in the magnified image, and how long it is there.
+// The midpoints of the vectors in the magnified image, and their lengths there.
 struct MagnifiedView {
   float magnification = 1;
   float mean_log_flow = 0;

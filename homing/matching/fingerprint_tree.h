@@ -79,12 +79,12 @@ class FingerprintTree {
   // Set in a reference to a bucket, clear in one to a node.
   static constexpr std::uint32_t kBucket = 0x80000000;
 
-  // Of x, y and count.
+  // Bounds of x, y and count.
   struct Box {
     std::array<float, kDimensions> low;
     std::array<float, kDimensions> high;
   };
-  // In columns, for the vectorised bound. Entries past `size` have count 0.
+  // Entries in columns, for the vectorised bound. Those past `size` have count 0.
   struct alignas(32) Bucket {
     std::array<float, kCapacity> x{};
     std::array<float, kCapacity> y{};

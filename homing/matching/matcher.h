@@ -104,7 +104,7 @@ class Matcher {
   };
   // Landmarks of all scanned journeys.
   std::size_t landmark_count_ = 0;
-  // By landmark over all journeys.
+  // Indexed by landmark over all journeys.
   std::vector<KnownLandmark> known_;
   std::vector<float> positive_;
 };

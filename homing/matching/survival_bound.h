@@ -19,13 +19,13 @@ class SurvivalBound {
  public:
   explicit SurvivalBound(const DeviationModel& model);
 
-  // At least 1 - F of every distance whose square, computed in float, is `squared_px`.
+  // An upper bound of 1 - F for every distance whose square, computed in float, is `squared_px`.
   float At(float squared_px) const { return table_[static_cast<std::size_t>(IndexOf(squared_px))]; }
-  // At most 1 - F of each of them.
+  // A lower bound of 1 - F for the same distances.
   float LeastAt(float squared_px) const {
     return least_[static_cast<std::size_t>(IndexOf(squared_px))];
   }
-  // From this squared distance on, At is less than `share`.
+  // The squared distance, px^2, from which on At is less than `share`.
   float ReachOf(double share) const;
   // Index of At's table entry, for loops over many distances.
   static std::int32_t IndexOf(float squared_px) {

@@ -1,4 +1,4 @@
-// Where a ProfileLikelihood believes that the robot was when it compared profiles.
+// The believed place of the robot at the instant whose profiles a ProfileLikelihood compared.
 #include <algorithm>
 
 #include "homing/profile/profile_likelihood.h"

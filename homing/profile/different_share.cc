@@ -31,7 +31,7 @@ struct Lengths {
   std::int64_t all() const { return stretch + (kPairs - 1) * spacing; }
 
   std::int64_t stretch;
-  // From one pair of places along the stretch to the next.
+  // Distance from one pair of places along the stretch to the next.
   std::int64_t spacing;
   // Places further apart are different.
   std::int64_t different;

@@ -24,7 +24,7 @@ constexpr std::size_t kCells = FlowProfile::kCells;
 // Cells that are transposed at a time.
 constexpr std::size_t kTile = 16;
 
-// By code seen, then by code stored.
+// Costs indexed by seen code, then by stored code.
 struct CostTables {
   alignas(kCodes) std::array<std::array<std::uint8_t, kCodes>, kCodes> share{};
   alignas(kCodes) std::array<std::array<std::uint8_t, kCodes>, kCodes> parallax{};

@@ -42,7 +42,7 @@ class ProfileLikelihood {
   // Ends the instant: updates the belief about the offset.
   void Learn();
 
-  // By predicted step. Sides without profiles are neutral: 1.
+  // Likelihood ratio by predicted step. Sides without profiles are neutral: 1.
   std::span<const float> of(std::size_t journey) const { return likelihoods_[journey]; }
   // Sides that were compared.
   int compared() const { return (compared_[0] ? 1 : 0) + (compared_[1] ? 1 : 0); }
@@ -96,7 +96,7 @@ class ProfileLikelihood {
   std::vector<std::vector<OffsetValues>> fits_;
   // By journey: the first of these stretches.
   std::vector<std::size_t> first_stretch_;
-  // By journey: as measured, and with the steps that have come since.
+  // Scales by journey: as measured, and extended to the steps added since.
   std::vector<std::shared_ptr<const RouteScale>> measured_;
   std::vector<RouteScale> routes_;
   // First predicted step.

@@ -23,7 +23,7 @@ constexpr double kBiasPart = 0.5;
 constexpr double kMuchGrown = 1.25;
 // Neighbours whose readings are averaged.
 constexpr double kReadingSteps = 3;
-// Of the signs of two kinds of flow, one must be this much steadier.
+// The sign of one kind of flow must be steadier than that of the other by this much.
 constexpr double kClearDirection = 0.2;
 // A sign that never changed over the map may still change now.
 constexpr double kSurestSign = 0.95;

@@ -15,7 +15,8 @@
 
 namespace homing {
 
-// Where a camera looks, read from the signs of its flow over the journey (METHOD 7).
+// The direction in which a camera looks, read from the signs of its flow over the journey (METHOD
+// 7).
 enum class CameraDirection { kUnknown = 0, kAcross = 1, kAlong = 2, kMixed = 3 };
 
 // The odometer of one camera: log2 of the flow that measures motion. Which flow this is depends on
@@ -58,8 +59,8 @@ struct SideScale {
   CameraOdometer odometer;
   // By step: mean reading of the steps around it.
   std::vector<std::int16_t> usual_readings;
-  // By step: half of what its distance to other places lies above the usual one. A step that is
-  // near to everything would attract every observation.
+  // By step: half of the difference between its distance to other places and the usual distance. A
+  // step that is near to everything would attract every observation.
   std::vector<std::int16_t> bias;
   // Median distances of places one correlation length apart, and kStretchLengths. At least 1.
   float length_distance = 1;

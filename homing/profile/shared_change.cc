@@ -10,7 +10,7 @@ namespace {
 // that fraction.
 constexpr double kLeastShared = 0.14;
 constexpr double kAboveDifferent = 0.03;
-// Before it has moved a whole stretch, a robot is judged from this many correlation lengths on.
+// Correlation lengths after which the first, shorter stretch is compared.
 constexpr double kFirstLengths = 1;
 // Instants closer together than this part of the stretch are not kept.
 constexpr double kSpacing = 1.0 / 16;

@@ -35,10 +35,10 @@ struct BelievedInstant {
 // Keeps the instants of the last stretch. Not thread-safe.
 class SharedChange {
  public:
-  // Between this instant and the one some correlation lengths before, the map changes and the view
-  // changes. Returns how much of the map's usual change they share, less the fraction that the most
-  // similar different place of the same map shares: above 0 on the route. None while the robot has
-  // not moved that far. `routes`: the scales of `journeys`.
+  // Adds an instant. Compares the change of the view with that of the map since the instant some
+  // correlation lengths before. Returns the fraction of the map's usual change that both share,
+  // less the fraction that the most similar different place of the same map shares: above 0 on the
+  // route. None while the robot has not moved that far. `routes`: the scales of `journeys`.
   std::optional<double> Add(std::span<const JourneyRef> journeys,
                             std::span<const RouteScale> routes, const BelievedInstant& now);
 

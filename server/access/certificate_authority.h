@@ -22,9 +22,9 @@ struct CertificateRequest {
   std::string common_name;
   // As OpenSSL writes them: "URI:homing:robots/r1", "DNS:localhost", "IP:127.0.0.1".
   std::vector<std::string> names;
-  // For a server, else for a client.
+  // The certificate is for a server, else for a client.
   bool is_server = false;
-  // From now; negative: the past.
+  // Start of its validity from now on; negative: in the past.
   std::chrono::seconds begins_in{-300};
   std::chrono::seconds ends_in = std::chrono::hours(24 * 365);
 };

@@ -23,7 +23,7 @@ struct CertificateExpiry {
   std::int64_t end_s = 0;
 };
 
-// One entry a file; files that cannot be read are left out. Reads them anew each time.
+// Reads all files. Returns one entry a file; files that cannot be read are left out.
 std::vector<CertificateExpiry> ReadExpiries(const CertificateFiles& files);
 
 // A text for the operator when `expiry` is less than 30 days away at `now_s`, or past; else empty.

@@ -14,7 +14,7 @@ class StoreCommands {
  public:
   // Both must outlive the object.
   StoreCommands(CLI::App* app, ServerCommand* command);
-  // After parsing: sets `command` and returns true if one of the subcommands was given.
+  // Call it after parsing: sets `command` and returns true if one of the subcommands was given.
   bool Choose(ServerCommand* command) const;
 
  private:

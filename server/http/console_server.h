@@ -28,7 +28,7 @@ struct ConsoleOptions {
 // The objects that the console shows; all must outlive it.
 struct ConsoleContext {
   AccessControl* access = nullptr;
-  // To the server in this process.
+  // A channel to the server in this process.
   std::shared_ptr<grpc::Channel> channel;
   std::function<std::string()> metrics;
   std::function<bool()> healthy;

@@ -84,7 +84,7 @@ struct ServiceCore {
   const std::unique_ptr<storage::JourneyStore> store;
   // Null without all_journeys_index.
   const std::unique_ptr<FleetIndex> index;
-  // Before the catalog, whose writers may hold a place on it.
+  // Declared before the catalog, whose writers may hold a place on it.
   FleetBoard fleet{absl::GetCurrentTimeNanos};
   JourneyCatalog catalog;
   // Null unless other servers write to the store.

@@ -128,7 +128,7 @@ void ImportStream::Complete() {
 }
 
 void ImportStream::FinishWith(const absl::Status& status) {
-  // Before the answer: the client may then import the next file.
+  // Frees the file before the answer, after which the client may import the next one.
   FreeFile();
   Finish(call_.Finish(status));
 }

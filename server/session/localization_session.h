@@ -15,7 +15,7 @@
 
 namespace homing::server {
 
-// Where the robot was before its link broke.
+// The robot's place before its link broke.
 struct LocalizationPrior {
   std::string journey;
   PositionPrior start;
@@ -48,8 +48,8 @@ class LocalizationSession {
   // camera or settings. INVALID_ARGUMENT. RESOURCE_EXHAUSTED: as JourneyCatalog::LoadMaps.
   absl::StatusOr<Localization> Localize(const Observation& observation);
 
-  // Where the robot may be on one journey after the last observation, in at most `most` groups of
-  // consecutive steps.
+  // The distribution of the robot's place on one journey after the last observation, in at most
+  // `most` groups of consecutive steps.
   struct Belief {
     std::int64_t step_count = 0;
     std::int64_t first_step = 0;
@@ -85,7 +85,7 @@ class LocalizationSession {
   LiveJourneys journeys_;
   LocalizerOptions options_;
   std::optional<Localizer> localizer_;
-  // Where the localiser starts.
+  // The start of the localiser.
   std::optional<LocalizationPrior> prior_;
   // As in the last answer.
   Position position_;

@@ -33,7 +33,7 @@ class PgAppends {
   void Forget(const std::string& name) { journeys_.erase(name); }
 
  private:
-  // One statement: the appends that are not yet decided and fit.
+  // The content of one statement: appends that are not yet decided and fit.
   struct Batch {
     std::vector<std::size_t> appends;
     // The changed journeys, in order of id, with next_sequence as it must be before.

@@ -57,7 +57,7 @@ std::string PgRows::Text(int row, int column) const {
 
 absl::StatusOr<std::unique_ptr<PgConnection>> PgConnection::Open(const std::string& url,
                                                                  Access access, Deadline deadline) {
-  // Before dbname: defaults, which the URL may override.
+  // The parameters before dbname are defaults, which the URL may override.
   const char* const names[] = {"application_name", "target_session_attrs", "dbname", nullptr};
   const char* const values[] = {
       "homing-server", access == Access::kReadWrite ? "read-write" : "any", url.c_str(), nullptr};

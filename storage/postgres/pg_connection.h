@@ -54,9 +54,9 @@ class PgConnection {
   PgConnection(const PgConnection&) = delete;
   PgConnection& operator=(const PgConnection&) = delete;
 
-  // One statement. `sql` must be a literal: its address is the key of the prepared statement.
+  // Runs one statement. `sql` must be a literal: its address is the key of the prepared statement.
   absl::StatusOr<PgRows> Run(const char* sql, const PgArguments& arguments, Deadline deadline);
-  // Any number of statements, in one transaction unless they say otherwise.
+  // Runs any number of statements, in one transaction unless they contain BEGIN or COMMIT.
   absl::Status Execute(const std::string& sql, Deadline deadline);
 
   // The last statement may have been committed or not: the connection was lost or the deadline

@@ -42,7 +42,7 @@ struct Answer {
   // The journey and the most probable step, counted from home. Unset where there is none.
   std::optional<std::string> journey = {};
   std::optional<std::int64_t> step = {};
-  // Of the steps first_step to last_step, inclusive.
+  // Probability of the steps first_step to last_step, inclusive.
   double probability = 0;
   std::int64_t first_step = 0;
   std::int64_t last_step = 0;
