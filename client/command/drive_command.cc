@@ -142,7 +142,7 @@ absl::Status Drive(const Session& session, const DriveFlags& flags) {
     return ToPilotAnswer(answer, 0);
   };
   HOMING_ASSIGN_OR_RETURN(const HomeDrive drive, DriveHome(options, cameras->route(), &eyes, ask));
-  return TellDrive(session, drive, cameras->route(), options.pilot.route_m, flags.folder);
+  return ReportDrive(session, drive, cameras->route(), options.pilot.route_m, flags.folder);
 }
 
 }  // namespace

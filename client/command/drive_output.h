@@ -15,8 +15,8 @@ inline constexpr double kAtHomeM = 1;
 
 // A line for each frame and the verdict, on stdout; drive.png and drive.csv in `folder`, if it is
 // not empty. ABORTED: the robot did not come home.
-absl::Status TellDrive(const Session& session, const HomeDrive& drive, const Route& route,
-                       double route_m, const std::string& folder);
+absl::Status ReportDrive(const Session& session, const HomeDrive& drive, const Route& route,
+                         double route_m, const std::string& folder);
 
 }  // namespace homing::client
 
