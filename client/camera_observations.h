@@ -71,7 +71,7 @@ class CameraObservations : public ObservationStream {
   void AddMark(const Mark& mark);
   void Forget();
   bool GoTo(const Point& point);
-  // Goes to the observation before which all is read already, and drops the later marks.
+  // Goes back to an observation that was read already, and drops the later marks.
   bool GoBack(std::int64_t sequence);
   void SkipToLastFrame(std::int64_t sequence);
 

@@ -23,7 +23,7 @@ class FileIdentity {
 
   // `bytes`: least size of the log, which holds pages that are not yet in the database.
   void SetLogBytes(std::int64_t bytes) { log_bytes_ = bytes; }
-  // True if the log is shorter than SetLogBytes said.
+  // True if the log is shorter than the size given to SetLogBytes.
   bool IsLogCut();
   // UNAVAILABLE, a fault of the store: a file was removed, replaced or cut.
   absl::Status Check();

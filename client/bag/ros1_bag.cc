@@ -21,7 +21,7 @@ constexpr std::uint8_t kConnection = 0x07;
 
 constexpr std::uint64_t kMaxHeaderBytes = 1 << 20;
 
-// NAME=VALUE pairs, each behind its length; views of the record's header.
+// NAME=VALUE pairs, each after its length; views of the record's header.
 class Fields {
  public:
   explicit Fields(std::string_view header) {

@@ -33,7 +33,7 @@ class RosReader {
   }
   std::string_view Text() {
     std::string_view text = Bytes();
-    // Counted by CDR.
+    // CDR counts the terminating zero.
     if (cdr_ && !text.empty() && text.back() == '\0') text.remove_suffix(1);
     return text;
   }

@@ -154,7 +154,7 @@ void AnswerBag::ForgetFlow() {
   flow_ = ObservationFlow(flow_options_);
 }
 
-// An observation that the server refuses is not kept; the server says why.
+// Does not keep an observation that the server will refuse; the server reports the reason.
 void AnswerBag::Keep(const v1::Observation& message) {
   const MutexLock lock(mutex_);
   const auto observation = wire::FromProto(message);

@@ -56,7 +56,7 @@ class ObservationBuffer : public client::ObservationStream {
 
   std::int64_t pending_count() const HOMING_REQUIRES(mutex_) { return end_ - durable_; }
   absl::Status WriteToFile() HOMING_REQUIRES(mutex_);
-  // The first of at least `sequence`.
+  // The first observation with at least this sequence.
   absl::StatusOr<std::optional<StoredObservation>> Find(std::int64_t sequence) const
       HOMING_REQUIRES(mutex_);
 

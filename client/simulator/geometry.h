@@ -13,7 +13,7 @@ namespace homing::client {
 using Vector2 = cv::Vec2d;
 using Vector3 = cv::Vec3d;
 
-// On the ground; heading anticlockwise from x, radians, of the OUTBOUND direction.
+// A pose on the ground. The heading is that of the OUTBOUND direction, anticlockwise from x, rad.
 struct Pose {
   Vector2 position;
   double heading = 0;

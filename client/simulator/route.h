@@ -9,8 +9,8 @@
 
 namespace homing::client {
 
-// Straight, or bending gently to either side in turn: heading = bend sin(2 pi s / period + phase).
-// Besides, corners may be in it.
+// A straight line, or one that bends gently to either side in turn: heading = bend sin(2 pi s /
+// period + phase). It may also have two corners.
 struct RouteBend {
   double bend_rad = 0;
   double period_m = 100;

@@ -39,7 +39,7 @@ struct Ellipsoid {
 // z = 0 everywhere.
 struct Ground {};
 
-// Infinitely far: a ragged band above the horizon.
+// A ragged band above the horizon, infinitely far away.
 struct Skyline {
   double seed_phase = 0;
 };

@@ -26,7 +26,7 @@ struct FrameChoice {
   double fps = 0;
   // Ends after so many seconds of the source's time; 0: at its end.
   double seconds = 0;
-  // A bad frame is an error; else it is skipped and reported. Frames without a partner are too.
+  // Bad frames and frames without a partner are errors; else they are skipped and reported.
   bool strict = false;
   // Receives one line of text for each thing that is left out, with the reason.
   std::function<void(const std::string&)> report = [](const std::string&) {};
@@ -89,7 +89,7 @@ class CameraInstants {
   void Report(std::size_t camera, const SourceFrame& frame);
   // Seconds since the source's first frame.
   double TimeOf(const Instant& instant);
-  // Whether the instant is used, as fps and seconds say; sets ended_.
+  // True if the instant is used according to fps and seconds; sets ended_.
   bool Wanted(const Instant& instant);
 
   Cameras cameras_;

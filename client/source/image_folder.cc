@@ -77,7 +77,7 @@ std::optional<FrameEncoding> EncodingOf(const std::string& bytes) {
   return std::nullopt;
 }
 
-// OpenCV turns TIFF as it says, but not WebP.
+// OpenCV applies the orientation of TIFF, but not that of WebP.
 absl::StatusOr<SourceFrame> DecodeOther(const std::string& path, const std::string& bytes) {
   HOMING_ASSIGN_OR_RETURN(const OpenCvReaders* const readers, LoadOpenCvReaders());
   HOMING_ASSIGN_OR_RETURN(SourceFrame frame, readers->read_gray_image(path));

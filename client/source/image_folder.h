@@ -14,7 +14,7 @@ namespace homing::client {
 
 struct ImageList {
   std::vector<std::string> paths;
-  // When each was captured, ascending, nanoseconds; empty: as the names say.
+  // Capture time of each file, ascending, nanoseconds; empty: the names decide.
   std::vector<std::int64_t> times_ns = {};
   // Hidden files with an image's name, left out.
   int hidden = 0;

@@ -21,8 +21,8 @@ std::optional<std::int64_t> ParseTime(const std::string& text);
 // Numbers inside names count as numbers: 2.png before 10.png.
 bool NaturalLess(const std::string& a, const std::string& b);
 
-// As decimal numbers (0.05 before 0.1) where each whole name, its ending apart, is one and at least
-// one has a point; else by NaturalLess.
+// Sorts as decimal numbers (0.05 before 0.1) if each name without its ending is a number and at
+// least one has a point; else by NaturalLess.
 void SortByName(std::vector<std::string>* paths);
 
 // The keys of sorted paths. Times: decimal numbers are seconds; whole numbers of 12 digits and more

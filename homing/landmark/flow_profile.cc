@@ -94,8 +94,8 @@ void Magnify(const MagnifiedView& view, std::size_t size, float* __restrict x, f
              float* __restrict log_flow) {
   const float scale = 1 - view.magnification;
   for (std::size_t i = 0; i < size; ++i) {
-    // How near the object is to the path, relative to one of the mean flow; 2^d by three terms is
-    // exact enough for a factor that is clamped.
+    // Nearness of the object to the path, relative to an object with the mean flow. Three terms of
+    // 2^d are exact enough for a factor that is clamped.
     const float d = log_flow[i] - view.mean_log_flow;
     const float e = d * 0.6931472F * 0.25F;
     const float quarter = 1 + e * (1 + e * (0.5F + e * 0.1666667F));

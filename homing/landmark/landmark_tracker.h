@@ -1,5 +1,5 @@
 // Numbers landmarks along a journey: a landmark seen at one step and one seen at a later step are
-// the same if its mean moved as the flow says. Source: paper III (counting of landmarks).
+// the same if its mean moved as the flow predicts. Source: paper III (counting of landmarks).
 #ifndef HOMING_LANDMARK_LANDMARK_TRACKER_H_
 #define HOMING_LANDMARK_LANDMARK_TRACKER_H_
 

@@ -1,6 +1,6 @@
-// What the map of one journey shows about itself: how alike its different places are, over how many
-// steps its profiles stay alike, and how far the robot moved at each step. The filter needs no
-// constant that depends on camera, scene or route length, because these figures take its place.
+// Figures measured on the map of one journey: how similar its different places are, over how many
+// steps its profiles stay similar, and how far the robot moved at each step. They replace constants
+// of the filter that would depend on camera, scene or route length.
 #ifndef HOMING_PROFILE_ROUTE_SCALE_H_
 #define HOMING_PROFILE_ROUTE_SCALE_H_
 

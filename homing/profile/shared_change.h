@@ -28,7 +28,7 @@ struct BelievedInstant {
     const CellMask* covered = nullptr;
   };
   std::array<std::optional<Seen>, 2> seen{};
-  // Steps from where the robot was at the first instant; the sign tells the way.
+  // Steps moved since the first instant; the sign gives the direction.
   double moved = 0;
 };
 

@@ -17,7 +17,7 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::steady_clock;
 
-// The library shows it in its requests.
+// Converts an address to the form that the library's requests show.
 void Describe(const sockaddr_storage& address, socklen_t size, std::string* ip, int* port) {
   std::array<char, NI_MAXHOST> host{};
   std::array<char, NI_MAXSERV> service{};

@@ -46,7 +46,7 @@ class IncomingCall {
   // "robots/r": the caller if it is a robot, else the robot that the request says or that its
   // journey names; empty: none.
   std::string RobotOf(const std::string& said, const std::string& journey) const;
-  // The trace that the client says it belongs to, for a TraceScope; null: none.
+  // The trace that the client names, for a TraceScope; null: none.
   const TraceParent* trace() const { return trace_ ? &*trace_ : nullptr; }
   // Counts one observation. RESOURCE_EXHAUSTED: the robot's rate is too high.
   absl::Status TakeObservation();

@@ -87,7 +87,7 @@ class LocalizationSession {
   std::optional<Localizer> localizer_;
   // The start of the localiser.
   std::optional<LocalizationPrior> prior_;
-  // As in the last answer.
+  // The position of the last answer.
   Position position_;
   std::optional<std::int64_t> due_;
   bool started_ = false;

@@ -90,8 +90,8 @@ class Localizer {
   ~Localizer();
 
   // Sends one observation and waits for its answer. DEADLINE_EXCEEDED: none within `timeout`; the
-  // observation still counts when the link is back. RESOURCE_EXHAUSTED: 64 wait already. Other
-  // errors end the drive.
+  // observation still counts when the link is back. RESOURCE_EXHAUSTED: 64 observations wait
+  // already. Other errors end the drive.
   Result<Answer> Localize(const Observation& observation, std::chrono::milliseconds timeout);
 
  private:
