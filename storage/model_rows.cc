@@ -3,14 +3,11 @@
 #include <algorithm>
 
 #include "homing/base/status_macros.h"
-#include "storage/settings_json.h"
+#include "storage/row_columns.h"
 #include "storage/store_errors.h"
 
 namespace homing::storage {
 namespace {
-
-#define HOMING_MODEL_COLUMNS \
-  "name, mu, sigma, observations, ks_distance, width, height, training, create_time_ns"
 
 constexpr char kInsertModel[] = "INSERT INTO deviation_models (" HOMING_MODEL_COLUMNS
                                 ") VALUES (?,?,?,?,?,?,?,?,?) ON CONFLICT DO NOTHING";
@@ -18,20 +15,6 @@ constexpr char kFindModel[] =
     "SELECT " HOMING_MODEL_COLUMNS " FROM deviation_models WHERE name = ?";
 constexpr char kListModels[] =
     "SELECT " HOMING_MODEL_COLUMNS " FROM deviation_models WHERE name > ? ORDER BY name LIMIT ?";
-
-absl::StatusOr<StoredModel> ReadModelRow(Query& query) {
-  StoredModel stored;
-  stored.name = query.Text(0);
-  stored.model.mu = query.Real(1);
-  stored.model.sigma = query.Real(2);
-  stored.model.observations = static_cast<int>(query.Integer(3));
-  stored.model.ks_distance = query.Real(4);
-  stored.model.width = static_cast<int>(query.Integer(5));
-  stored.model.height = static_cast<int>(query.Integer(6));
-  HOMING_ASSIGN_OR_RETURN(stored.training, TrainingOptionsFromJson(query.Text(7)));
-  stored.create_time_ns = query.Integer(8);
-  return stored;
-}
 
 }  // namespace
 
@@ -49,7 +32,7 @@ absl::Status InsertModel(Connection& connection, const StoredModel& model) {
 absl::StatusOr<StoredModel> FindModel(Connection& connection, const std::string& name) {
   Query query = connection.Prepare(kFindModel, name);
   if (!query.Next()) return ModelNotFound(name);
-  return ReadModelRow(query);
+  return ReadModel(query);
 }
 
 absl::StatusOr<std::vector<StoredModel>> ListModelRows(Connection& connection,
@@ -57,8 +40,7 @@ absl::StatusOr<std::vector<StoredModel>> ListModelRows(Connection& connection,
   std::vector<StoredModel> models;
   Query query = connection.Prepare(kListModels, after, std::max(limit, 0));
   while (query.Next()) {
-    HOMING_ASSIGN_OR_RETURN(StoredModel model, ReadModelRow(query));
-    models.push_back(std::move(model));
+    HOMING_ASSIGN_OR_RETURN(models.emplace_back(), ReadModel(query));
   }
   return models;
 }

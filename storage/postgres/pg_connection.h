@@ -41,6 +41,16 @@ class PgRows {
   std::unique_ptr<PGresult, void (*)(PGresult*)> result_;
 };
 
+// One of the rows, which must outlive it.
+struct PgRow {
+  std::int64_t Integer(int column) const { return rows.Integer(row, column); }
+  double Real(int column) const { return rows.Real(row, column); }
+  std::string Text(int column) const { return rows.Text(row, column); }
+
+  const PgRows& rows;
+  int row = 0;
+};
+
 // Not thread-safe.
 class PgConnection {
  public:
