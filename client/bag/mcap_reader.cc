@@ -194,18 +194,11 @@ absl::Status McapReader::Scan() {
     const auto size = reader.Take<std::uint64_t>();
     if (!reader.ok() || size > file_.size() - offset - kHeadBytes) break;
     whole = opcode == mcap_opcode::kDataEnd || opcode == mcap_opcode::kFooter;
-    if (const absl::Status status = TakeRecord(opcode, offset, size); !status.ok()) {
-      ReportDamage(absl::StrCat(file_.path(), ": the record at byte ", offset,
-                                " is damaged: ", std::string(status.message())));
-    }
+    CheckPart("record", offset, TakeRecord(opcode, offset, size));
     offset += kHeadBytes + size;
   }
   EndChunk(/*complete=*/whole);
-  if (!whole) {
-    ReportDamage(absl::StrCat(file_.path(), " ends too early; the bytes after ", offset, " of ",
-                              file_.size(), " are not read"));
-  }
-  SortTopics();
+  EndScan(whole, offset);
   return absl::OkStatus();
 }
 
@@ -221,9 +214,7 @@ absl::StatusOr<std::string> McapReader::Read(const MessagePlace& place) {
     HOMING_ASSIGN_OR_RETURN(from_file, file_.Read(offset, kHeadBytes + size));
     bytes = from_file;
   } else {
-    HOMING_ASSIGN_OR_RETURN(bytes, Chunk(static_cast<std::uint64_t>(place.chunk)));
-    if (offset > bytes.size()) return absl::DataLossError("the index points behind its chunk");
-    bytes.remove_prefix(offset);
+    HOMING_ASSIGN_OR_RETURN(bytes, BytesInChunk(place));
   }
   ByteReader reader(bytes);
   const auto opcode = reader.Take<std::uint8_t>();
