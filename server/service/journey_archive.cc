@@ -46,26 +46,6 @@ std::string Checksum(std::string_view bytes) {
   return text;
 }
 
-void DeviationToProto(const DeviationModel& model, v1::DeviationValues* message) {
-  message->set_mu(model.mu);
-  message->set_sigma(model.sigma);
-  message->set_observations(model.observations);
-  message->set_ks_distance(model.ks_distance);
-  message->set_width(model.width);
-  message->set_height(model.height);
-}
-
-DeviationModel DeviationFromProto(const v1::DeviationValues& message) {
-  DeviationModel model;
-  model.mu = message.mu();
-  model.sigma = message.sigma();
-  model.observations = message.observations();
-  model.ks_distance = message.ks_distance();
-  model.width = message.width();
-  model.height = message.height();
-  return model;
-}
-
 using Profiles = google::protobuf::RepeatedPtrField<std::string>;
 
 void ProfilesToProto(std::span<const FlowProfile> profiles, Profiles* column) {
@@ -78,7 +58,7 @@ v1::JourneyMap MapToProto(const storage::JourneyRecord& record, const JourneyMap
                           char version) {
   v1::JourneyMap message;
   *message.mutable_settings() = wire::ToProto(map.settings());
-  DeviationToProto(map.settings().deviation_model, message.mutable_deviation());
+  wire::FillDeviation(map.settings().deviation_model, message.mutable_deviation());
   message.set_step_count(map.step_count());
   message.set_start_time_ns(record.start_time_ns);
   message.set_end_time_ns(record.end_time_ns);
@@ -111,7 +91,7 @@ absl::Status CheckTooLarge(std::size_t size) {
 absl::StatusOr<v1::JourneyMap> Unwrap(std::string_view bytes) {
   HOMING_RETURN_IF_ERROR(CheckTooLarge(bytes.size()));
   if (bytes.substr(0, kMagic.size()) != kMagic)
-    return Damaged("has other first bytes: another kind of file");
+    return Damaged("does not begin with HOMINGJ: it is another kind of file");
   if (bytes.size() < kHeaderBytes + kChecksumBytes) return Damaged("ends too early");
   const char version = bytes[kMagic.size()];
   if (version < kVersionBefore || version > kVersion) {
@@ -180,7 +160,7 @@ absl::StatusOr<JourneySettings> SettingsOf(const v1::JourneyMap& message) {
   }
   HOMING_ASSIGN_OR_RETURN(JourneySettings result,
                           wire::FromProto(settings, "settings", JourneySettings()));
-  result.deviation_model = DeviationFromProto(message.deviation());
+  result.deviation_model = wire::DeviationOf(message.deviation());
   HOMING_RETURN_IF_ERROR(Validate(result));
   return result;
 }
