@@ -1,3 +1,4 @@
+// The class Texture of texture_pool.h.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>

@@ -22,8 +22,6 @@
 // On a function: the caller holds the mutex.
 #define HOMING_REQUIRES(...) HOMING_THREAD_ATTRIBUTE(requires_capability(__VA_ARGS__))
 #define HOMING_REQUIRES_SHARED(...) HOMING_THREAD_ATTRIBUTE(requires_shared_capability(__VA_ARGS__))
-// On a function: the caller does not hold the mutex.
-#define HOMING_EXCLUDES(...) HOMING_THREAD_ATTRIBUTE(locks_excluded(__VA_ARGS__))
 // On a function: locks or unlocks the mutex.
 #define HOMING_ACQUIRE(...) HOMING_THREAD_ATTRIBUTE(acquire_capability(__VA_ARGS__))
 #define HOMING_ACQUIRE_SHARED(...) HOMING_THREAD_ATTRIBUTE(acquire_shared_capability(__VA_ARGS__))

@@ -20,7 +20,7 @@ Seen = Union[Observation, View]
 
 
 class _Link:
-    """The requests of one stream: gRPC reads them on a thread of its own."""
+    """The requests of one stream: gRPC reads them on its own thread."""
 
     def __init__(self, sender: "_Sender", config: Any, wrap: Callable[[Any], Any], window: int):
         self._sender = sender
@@ -214,7 +214,7 @@ class Client:
                 if wait is None:
                     raise from_rpc(error) from None
                 time.sleep(wait)
-                # The last one answered is sent again: flow goes on from it.
+                # The last one answered is sent again: flow continues from it.
                 sender.begin(reported + 1, max(reported, 0))
             finally:
                 link.close()

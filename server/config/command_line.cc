@@ -1,3 +1,4 @@
+// ParseCommandLine of server_options.h.
 #include <toml++/toml.h>
 #include <CLI/CLI.hpp>
 #include <iostream>
