@@ -46,7 +46,7 @@ class RouteBelief {
   // Moves the masses by a turn on the spot: hardly any motion.
   void Turn(double restart = 0);
   // Multiplies each step of the active window by its factor, each direction by its factor, and each
-  // speed by what the odometer says. `ratios`: SpeedEvidence::IndexOf the reading now less the
+  // speed by the odometer's likelihood. `ratios`: SpeedEvidence::IndexOf the reading now less the
   // step's. `directions`: DirectionFactors. REQUIRES: focus_size() factors and ratios. Returns the
   // remaining mass.
   StepMass Weigh(std::span<const float> factors, std::span<const std::int16_t> ratios,
