@@ -109,15 +109,15 @@ absl::Status IncomingCall::EnterStream() {
   HOMING_RETURN_IF_ERROR(identified_);
   const MutexLock lock(mutex_);
   is_stream_ = true;
-  place_.Leave();
-  HOMING_ASSIGN_OR_RETURN(place_, core_->places.Enter(robot_));
+  slot_.Leave();
+  HOMING_ASSIGN_OR_RETURN(slot_, core_->slots.Enter(robot_));
   return absl::OkStatus();
 }
 
 absl::Status IncomingCall::EnterWatch() {
   HOMING_RETURN_IF_ERROR(identified_);
   const MutexLock lock(mutex_);
-  HOMING_ASSIGN_OR_RETURN(place_, core_->places.Enter(""));
+  HOMING_ASSIGN_OR_RETURN(slot_, core_->slots.Enter(""));
   return absl::OkStatus();
 }
 
@@ -168,7 +168,7 @@ grpc::Status IncomingCall::Finish(const absl::Status& status) {
       spdlog::info("call: {} \"{}\": {} in {:.6f} s", TraitsOf(rpc_).method, resource_,
                    absl::StatusCodeToString(status.code()), elapsed.count());
     }
-    place_.Leave();
+    slot_.Leave();
   }
   return ToGrpcStatus(status);
 }

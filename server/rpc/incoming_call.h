@@ -73,7 +73,7 @@ class IncomingCall {
   // The resource, for the log.
   std::string resource_ HOMING_GUARDED_BY(mutex_);
   bool is_stream_ HOMING_GUARDED_BY(mutex_) = false;
-  StreamLimiter::Place place_ HOMING_GUARDED_BY(mutex_);
+  StreamLimiter::Slot slot_ HOMING_GUARDED_BY(mutex_);
 };
 
 }  // namespace homing::server

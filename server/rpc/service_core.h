@@ -71,7 +71,7 @@ struct ServiceCore {
         models(store.get()),
         quota(&catalog, core_options.limits),
         rates(core_options.limits.max_robot_rate),
-        places(core_options.limits),
+        slots(core_options.limits),
         queue(store.get(), QueueOptions(metrics.get())),
         pool(core_options.workers) {}
 
@@ -92,7 +92,7 @@ struct ServiceCore {
   ModelCatalog models;
   JourneyQuota quota;
   RateLimiter rates;
-  StreamLimiter places;
+  StreamLimiter slots;
   // Bytes of files that are being imported.
   std::atomic<std::int64_t> import_bytes = 0;
   storage::CommitQueue queue;
