@@ -1,5 +1,5 @@
 #!/bin/sh
-# Runs a command in a root folder of its own. The mounts live in a mount namespace that ends with the
+# Runs a command in its own root folder. The mounts live in a mount namespace that ends with the
 # command, so none is left behind however it ends. Needs root.
 # usage: sh .ci/bare_root.sh ROOT COMMAND...     DATA=DIR is seen inside, read-only, as /real-data
 set -eu

@@ -146,7 +146,7 @@ stage_fuzz() { sh tests/fuzz/run.sh 30; }
 
 stage_tsan() { HOMING_PRESET=tsan sh tests/run.sh; }
 
-# The Debian packages of the build of the tests, in a Debian 12 of their own.
+# The Debian packages of the build of the tests, in their own Debian 12.
 stage_packages_deb() {
   [ "$(id -u)" -eq 0 ] || skip "a bare root needs root"
   command -v mmdebstrap >/dev/null || skip "mmdebstrap is not installed"

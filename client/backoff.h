@@ -23,7 +23,7 @@ struct BackoffOptions {
 class Backoff {
  public:
   explicit Backoff(const BackoffOptions& options = {});
-  // The next wait.
+  // Returns the next wait, and lengthens the one after it.
   std::chrono::milliseconds Next();
   // Call it after a success: restarts with the first wait.
   void Reset() { current_ = options_.initial; }

@@ -88,7 +88,7 @@ Json ReadTree(const std::string& text) {
     const cv::FileStorage file(text, cv::FileStorage::READ | cv::FileStorage::MEMORY);
     return TreeBuilder().FromXml(file.root());
   }
-  // OpenCV's first line is no YAML.
+  // The first line of OpenCV's files is not YAML.
   const bool opencv = absl::StartsWith(text, "%YAML:");
   return TreeBuilder().FromYaml(
       YAML::Load(opencv ? text.substr(std::min(text.size(), text.find('\n'))) : text));
@@ -101,7 +101,7 @@ Json FirstOf(const Json& parent, const std::vector<const char*>& names) {
   return {};
 }
 
-// A list, or the data of a matrix.
+// The numbers of a list, or of the data of a matrix.
 std::vector<double> NumbersOf(const Json& node) {
   std::vector<double> values;
   for (const Json& value : node.is_object() ? FirstOf(node, {"data"}) : node) {

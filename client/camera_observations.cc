@@ -186,7 +186,7 @@ void CameraObservations::SkipToLastFrame(std::int64_t sequence) {
 
 bool CameraObservations::Seek(std::int64_t sequence) {
   if (sequence < base_ || instants_->live() || !GoBack(sequence)) return false;
-  // Without earlier sources the frame's number is its count.
+  // If there were no earlier sources, the frame's number is its count.
   const bool begins = flow_ && base_ == 0 && count_ == 0;
   if (begins && sequence > 0 && last_frame_ >= 0) SkipToLastFrame(sequence);
   // Which frames make an observation is known only after they were read.

@@ -22,6 +22,7 @@ namespace homing::client {
 // Opens the named sources; at least one. Errors of OpenFrameSource.
 absl::StatusOr<Cameras> OpenCameras(const std::string& left, const std::string& right);
 
+// Not thread-safe, except FrameOf.
 class CameraObservations : public ObservationStream {
  public:
   // With `flow` set, observations hold flow vectors, one for each instant that makes a step: the
@@ -70,7 +71,7 @@ class CameraObservations : public ObservationStream {
   void AddMark(const Mark& mark);
   void Forget();
   bool GoTo(const Point& point);
-  // Goes to the observation before which all is read already, and drops the later marks.
+  // Goes back to an observation that was read already, and drops the later marks.
   bool GoBack(std::int64_t sequence);
   void SkipToLastFrame(std::int64_t sequence);
 
@@ -92,7 +93,7 @@ class CameraObservations : public ObservationStream {
   mutable Mutex mutex_;
   // Sequence of the first mark.
   std::int64_t marks_from_ HOMING_GUARDED_BY(mutex_) = 0;
-  // One for each observation that was read.
+  // One mark for each observation that was read.
   std::vector<Mark> marks_ HOMING_GUARDED_BY(mutex_);
 };
 

@@ -61,8 +61,8 @@ absl::StatusOr<std::shared_ptr<grpc::ChannelCredentials>> MakeCredentials(
   return grpc::SslCredentials(ssl);
 }
 
-// gRPC's own resolver knows neither mDNS nor what else the system is set up for. Read by gRPC when
-// it starts, so before the first channel; what the user sets stays.
+// gRPC's own resolver supports neither mDNS nor the system's other name services. gRPC reads the
+// variable when it starts, so this runs before the first channel. A value set by the user stays.
 void UseResolverOfSystem() { ::setenv("GRPC_DNS_RESOLVER", "native", /*overwrite=*/0); }
 
 grpc::ChannelArguments MakeArguments(const std::string& address) {
@@ -83,9 +83,10 @@ grpc::ChannelArguments MakeArguments(const std::string& address) {
   arguments.SetInt(GRPC_ARG_MIN_RECONNECT_BACKOFF_MS, 5000);
   arguments.SetInt(GRPC_ARG_MAX_RECONNECT_BACKOFF_MS, kMaxReconnectBackoffMs);
   arguments.SetInt(GRPC_ARG_ENABLE_HTTP_PROXY, MayUseProxy(address) ? 1 : 0);
-  // After a failure the name is resolved again at once: by default only every 30 s.
+  // Resolves the name again at once after a failure; the default is every 30 s.
   arguments.SetInt(GRPC_ARG_DNS_MIN_TIME_BETWEEN_RESOLUTIONS_MS, kMaxReconnectBackoffMs);
-  // Each Connection has its own TCP connection: a program with several does not lose all at once.
+  // Each Connection has its own TCP connection, so that a program with several does not lose all at
+  // once.
   arguments.SetInt(GRPC_ARG_USE_LOCAL_SUBCHANNEL_POOL, 1);
   // The server limits messages; answers hold no images.
   arguments.SetMaxReceiveMessageSize(64 * 1024 * 1024);

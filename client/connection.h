@@ -30,8 +30,8 @@ struct ConnectionOptions {
   // TLS only to this machine, unless `insecure`.
   std::string token_file;
   bool insecure = false;
-  // W3C traceparent of whoever started this program; otherwise a new trace begins. Each call names
-  // the trace, and its own span.
+  // W3C traceparent of the program that started this one; otherwise a new trace begins. Each call
+  // sends the trace and its own span.
   std::string traceparent;
   // Longest time for the first connection.
   std::chrono::milliseconds connect_timeout{5000};

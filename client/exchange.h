@@ -1,4 +1,5 @@
-// One attempt of a bidirectional stream: sends observations within a window, receives answers.
+// Makes one attempt of a bidirectional stream: sends observations within a window, and receives
+// answers.
 #ifndef CLIENT_EXCHANGE_H_
 #define CLIENT_EXCHANGE_H_
 
@@ -36,7 +37,8 @@ class Exchange {
     reader.join();
     absl::Status status = FromGrpc(stream_->Finish());
     const MutexLock lock(mutex_);
-    // A source that failed returns its error again once the link is restored.
+    // The link's error comes first: a failed source returns its error again once the link is
+    // restored.
     if (source_failed_ && !status.ok()) return status;
     if (!error_.ok()) return error_;
     if (!status.ok()) return status;

@@ -41,7 +41,7 @@ absl::Status HomingClient::Attempt(const LocalizingOptions& options, ResendBuffe
   const auto fill = [shift](const v1::Observation& observation, v1::LocalizeRequest* request) {
     *request->mutable_observation() = observation;
     request->mutable_observation()->set_sequence(observation.sequence() - shift);
-    // The answer names the frame as the source does.
+    // Keeps the source's number of the frame, which the answer repeats.
     if (!observation.has_frame()) request->mutable_observation()->set_frame(observation.sequence());
   };
   return exchange.Run(buffer, fill, [&](const v1::LocalizeResponse& response) -> absl::Status {

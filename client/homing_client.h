@@ -45,7 +45,7 @@ class HomingClient {
                                                    const std::stop_token& stop = {});
 
  private:
-  // One stream. Its numbers begin at 0: those of a later stream are shifted.
+  // Runs one stream. Its numbers begin at 0: those of a later stream are shifted.
   absl::Status Attempt(const LocalizingOptions& options, ResendBuffer* buffer,
                        const OnAnswer& on_answer, const std::stop_token& stop, bool* progress);
 
@@ -56,7 +56,7 @@ class HomingClient {
   std::unique_ptr<v1::HomingService::StubInterface> stub_;
   // The last sequence given to on_answer.
   std::int64_t reported_ = -1;
-  // Where the robot was at the last answers, by sequence: a new stream starts from the one before
+  // The robot's places at the last answers, by sequence: a new stream starts from the one before
   // the first observation that is sent again.
   std::map<std::int64_t, v1::LocalizePrior> priors_;
 };

@@ -4,7 +4,7 @@
 
 namespace homing::client {
 
-// What is sent, as it comes.
+// The observations to send, in the order of Send.
 class LiveLocalizer::Queue final : public ObservationStream {
  public:
   Queue(LiveLocalizer* owner, std::stop_token stop) : owner_(owner), stop_(std::move(stop)) {}
@@ -20,7 +20,7 @@ class LiveLocalizer::Queue final : public ObservationStream {
     return std::make_optional(std::move(next));
   }
   bool Seek(std::int64_t) override { return false; }
-  // Localising goes back no further than what was kept.
+  // Does nothing: localising never goes back beyond the kept observations.
   void ContinueAt(std::int64_t) override {}
 
  private:

@@ -35,7 +35,7 @@ class LiveLocalizer {
   class Queue;
 
   void Run(const LocalizingOptions& options, const std::stop_token& stop);
-  // The next answer or the error. REQUIRES: one of them, and the lock.
+  // The next answer or the error. REQUIRES: one of them exists, and the lock is held.
   absl::StatusOr<v1::LocalizeResponse> Take();
 
   HomingClient client_;

@@ -14,7 +14,7 @@ MapQuality::MapQuality(const v1::Journey& journey) {
   const std::int64_t steps = journey.step_count();
   const std::int64_t fingerprints = journey.fingerprint_count();
   if (steps == 0) {
-    reason = "it has no step; frames that do not differ make none";
+    reason = "it has no step: the frames do not differ";
   } else if (fingerprints == 0) {
     reason =
         "it has no fingerprint, so no robot can find its place on it; the frames hardly differ (at "

@@ -9,7 +9,7 @@
 namespace homing::client {
 
 struct MapQuality {
-  // By the counts of steps and fingerprints.
+  // Judges by the counts of steps and fingerprints.
   explicit MapQuality(const v1::Journey& journey);
 
   bool good = true;

@@ -12,7 +12,7 @@
 
 namespace homing::client {
 
-// Each call is retried while IsRetriable. Errors of the RPC of the same name.
+// Each call is retried while IsRetriable. Errors of the RPC of the same name. Not thread-safe.
 class ModelClient {
  public:
   // REQUIRES: `connection` outlives the client.

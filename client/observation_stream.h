@@ -19,8 +19,8 @@ class ObservationStream {
   // The frame that made the last step of the journey; -1: none, or not known. A stream of flow
   // vectors continues from it at the next Seek or ContinueAt.
   virtual void set_last_frame(std::int64_t) {}
-  // Seeks: `sequence` comes next, identical to the first time (beyond the end: nothing). False: not
-  // possible (live camera).
+  // Makes `sequence` the next observation, identical to the first time (beyond the end: none
+  // follows). False: not possible (live camera).
   virtual bool Seek(std::int64_t sequence) = 0;
   // Continues with new observations: the next one has the number `sequence` and is marked as a
   // break.

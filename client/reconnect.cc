@@ -11,8 +11,8 @@ namespace {
 
 using SteadyClock = std::chrono::steady_clock;
 
-// Attempts in a row without getting further: that the server may correct (OUT_OF_RANGE: another
-// observation is expected), and that a proxy may break off.
+// Most consecutive attempts without progress: after OUT_OF_RANGE, which the expected number
+// corrects, and after a proxy's reset.
 constexpr int kMaxCorrections = 3;
 
 std::int64_t Seconds(std::chrono::milliseconds duration) {
@@ -52,7 +52,7 @@ absl::Status Reconnecting(const Connection& connection, const std::stop_token& s
     }
     const auto wait =
         std::max(backoff.Next(), RetryDelay(status).value_or(std::chrono::milliseconds(0)));
-    // Once an outage.
+    // Logs once an outage.
     if (progress || !lost) {
       log(absl::StrCat("link lost (", std::string(status.message()), "), trying again for ",
                        Seconds(connection.options().retry_for), " s"));

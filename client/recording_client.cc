@@ -61,7 +61,7 @@ absl::Status RecordingClient::Begin(Stream* stream, ResendBuffer* buffer) {
     summary_.begun_at = durable;
     if (durable > 0) log_(absl::StrCat("resuming at observation ", durable));
   } else {
-    log_(absl::StrCat("link restored, going on at observation ", durable));
+    log_(absl::StrCat("link restored, continuing at observation ", durable));
   }
   summary_.next_sequence = durable;
   const std::int64_t resend_from =

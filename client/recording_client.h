@@ -68,7 +68,7 @@ class RecordingClient {
   RecordingOptions options_;
   Log log_;
   std::unique_ptr<v1::JourneyService::StubInterface> stub_;
-  // Of Record.
+  // The argument of Record.
   ObservationStream* observations_ = nullptr;
   RecordingSummary summary_;
   int attempts_ = 0;

@@ -43,7 +43,7 @@ absl::StatusOr<std::shared_ptr<const v1::Observation>> ResendBuffer::Next() {
 }
 
 void ResendBuffer::Drop(std::int64_t first, std::int64_t after, std::int64_t sequence) {
-  // What is not sent again yet stays.
+  // Keeps observations that still have to be sent again.
   const std::int64_t sent = cursor_ < kept_.size() ? kept_[cursor_]->sequence() : end();
   const auto erase = [this](std::int64_t from, std::int64_t to) HOMING_REQUIRES(mutex_) {
     const std::size_t begin = IndexOf(from);

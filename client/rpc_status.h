@@ -19,10 +19,11 @@ absl::Status FromGrpc(const grpc::Status& status);
 // The delay that the server named, if any.
 std::optional<std::chrono::milliseconds> RetryDelay(const absl::Status& status);
 
-// The server, or the way to it, reported `status`, and not this machine: FromGrpc made it.
+// True if the server, or the network on the way to it, reported `status` (FromGrpc made it), and
+// not this machine.
 bool IsFromServer(const absl::Status& status);
 
-// Something between client and server, as a proxy, broke the stream off.
+// True if something between client and server, such as a proxy, reset the stream.
 bool IsReset(const absl::Status& status);
 
 // The same call may succeed later: UNAVAILABLE, or RESOURCE_EXHAUSTED or CANCELLED with a delay.

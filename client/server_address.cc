@@ -91,7 +91,7 @@ class Socket {
     ::getsockopt(fd_, SOL_SOCKET, SO_ERROR, &error, &length);
     return error;
   }
-  // The first bytes of the answer, "" if the other side closes.
+  // Sends `bytes`; returns the first bytes of the answer, "" if the other side closes.
   std::string Ask(std::string_view bytes) const {
     std::array<char, 16> answer{};
     if (::send(fd_, bytes.data(), bytes.size(), MSG_NOSIGNAL) < 0 || !Await(POLLIN)) return "";
@@ -181,7 +181,7 @@ absl::Status ExplainUnreachable(const std::string& address, bool uses_tls) {
                        absl::StrCat("the way there is through the proxy of ", ProxyOfEnvironment(),
                                     "; name the host in no_proxy to go around it"));
   }
-  // Of several servers the first one stands for all.
+  // Checks only the first of several servers.
   const auto target = ParseHostPort("--server", ServersOf(address)[0], 1);
   if (!target.ok()) return Unavailable(address, "nothing listens there");
   int error = 0;

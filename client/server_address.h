@@ -1,4 +1,4 @@
-// Where a server is, and why nothing answers there.
+// The address of a server, and the reason why it does not answer.
 #ifndef CLIENT_SERVER_ADDRESS_H_
 #define CLIENT_SERVER_ADDRESS_H_
 
@@ -15,13 +15,12 @@ absl::Status CheckServerAddress(const std::string& address);
 // "VARIABLE (URL)"; empty: none.
 std::string ProxyOfEnvironment();
 
-// Whether the way to the address may lead through such a proxy: not to this machine, to private
-// addresses, or to names without a point or of .local. May ask the name service.
+// True if gRPC may use such a proxy for the address: not for this machine, private addresses, and
+// names without a dot or of .local. May resolve the name.
 bool MayUseProxy(const std::string& address);
 
-// UNAVAILABLE with the reason why no connection comes about: a name that cannot be resolved, a
-// proxy in between, nothing that listens, one side with TLS and the other without, or certificates.
-// Connects once more to find out.
+// UNAVAILABLE with the reason why the connection fails: a name that cannot be resolved, a proxy,
+// nothing that listens, TLS on one side only, or certificates. Connects once more to find it.
 absl::Status ExplainUnreachable(const std::string& address, bool uses_tls);
 
 }  // namespace homing::client

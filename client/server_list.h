@@ -15,8 +15,8 @@ std::vector<std::string> ServersOf(const std::string& address);
 // A list, or dns:///NAME:PORT, whose name may have many addresses.
 bool MayBeMany(const std::string& address);
 
-// What gRPC connects to. The names of a list are resolved here, once; that of dns:/// again after
-// each failure. UNAVAILABLE: a name cannot be resolved.
+// The target for gRPC. The names of a list are resolved here, once; gRPC resolves that of dns:///
+// again after each failure. UNAVAILABLE: a name cannot be resolved.
 absl::StatusOr<std::string> ChannelTarget(const std::string& address);
 
 }  // namespace homing::client

@@ -35,7 +35,7 @@ class CallInterceptor final : public ge::Interceptor {
   }
 
  private:
-  // gRPC keeps references to them until the call is over.
+  // gRPC keeps references to these until the call ends.
   const std::string authorization_;
   const std::string trace_;
 };

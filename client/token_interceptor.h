@@ -1,4 +1,4 @@
-// What is sent with every call of a channel: a bearer token, and the trace of the call.
+// Adds a bearer token and the trace to every call of a channel.
 #ifndef CLIENT_TOKEN_INTERCEPTOR_H_
 #define CLIENT_TOKEN_INTERCEPTOR_H_
 

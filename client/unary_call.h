@@ -1,4 +1,4 @@
-// One request and one response, retried while the server is not available.
+// Sends one request, and retries it while the server is not available.
 #ifndef CLIENT_UNARY_CALL_H_
 #define CLIENT_UNARY_CALL_H_
 

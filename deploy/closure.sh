@@ -1,5 +1,5 @@
 #!/bin/sh
-# Copies a program with every shared library it links, and a user to run it, into a root of its own.
+# Copies a program with every shared library it links, and a user to run it, into its own root folder.
 # usage: sh deploy/closure.sh PROGRAM ROOT
 set -eu
 program=$1

@@ -1,6 +1,6 @@
 #!/bin/sh
 # Installs the Debian packages of the named sets of packages.txt (no set: build, client, test).
-# Only what is missing is fetched, so that a second run needs no network.
+# Fetches only missing packages, so that a second run needs no network.
 set -eu
 list=$(dirname "$0")/packages.txt
 [ $# -gt 0 ] || set -- build client test

@@ -68,7 +68,7 @@ quietly() {
   shift
   "$@" >"$log" 2>&1 </dev/null || { tail -n 100 "$log" >&2; exit 1; }
 }
-# The tests go on from this build.
+# The tests continue from this build.
 [ -f build/dev/build.ninja ] || quietly configure cmake --preset dev -DHOMING_TESTS=OFF
 echo "Building (log: build/dev-build.log)"
 quietly build cmake --build --preset dev --target homing-server homing -j "$(nproc)"

@@ -5,7 +5,7 @@
 namespace homing::server {
 namespace {
 
-// Corrections of a clock that runs well are smaller.
+// Corrections of a working clock are smaller than this.
 constexpr std::chrono::minutes kJump{10};
 
 }  // namespace

@@ -7,15 +7,15 @@
 
 namespace homing::server {
 
-// A machine without a clock begins in 1970 and learns the time later: what it made before then
-// looks old at once. Not thread-safe.
+// A machine without a hardware clock starts in 1970 and learns the time later; journeys that it
+// made before then look old at once. Not thread-safe.
 class ClockWatch {
  public:
-  // No journey of this program was made before; nanoseconds since the epoch (the start of 2026).
+  // No journey of this program is older. Nanoseconds since the epoch (the start of 2026).
   static constexpr std::int64_t kEarliestNs = 1'767'225'600'000'000'000;
 
-  // What was made from here on has an age that can be trusted, as far as is known at `wall_ns`;
-  // both clocks are read together, again and again.
+  // Returns the earliest creation time whose age can be trusted, nanoseconds since the epoch. Call
+  // it periodically, with both clocks read at the same moment.
   std::int64_t TrustedSince(std::int64_t wall_ns, std::chrono::steady_clock::time_point steady);
 
  private:

@@ -65,7 +65,7 @@ void AddCoreGauges(const ServerOptions& options, ServiceCore* core) {
   metrics->AddGauge("homing_worker_queue_depth", "Tasks that wait for a worker",
                     [core] { return static_cast<double>(core->pool.waiting()); });
   metrics->AddGauge("homing_open_streams", "Streams that are open",
-                    [core] { return static_cast<double>(core->places.open()); });
+                    [core] { return static_cast<double>(core->slots.open()); });
   metrics->AddGauge("homing_import_bytes", "Bytes of files that are being imported",
                     [core] { return static_cast<double>(core->import_bytes.load()); });
   metrics->AddGauge("homing_journeys_deleted", "Journeys deleted by age or quota since the start",

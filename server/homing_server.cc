@@ -34,13 +34,13 @@ namespace {
 constexpr int kMinPingIntervalMs = 500;
 // Time for the streams of a connection that has become too old.
 constexpr int kAgeGraceMs = 10'000;
-// Above --max-streams as a rule, since a stream over that is refused with a reason, while one over
-// this waits.
+// Usually higher than --max-streams: the server refuses a stream beyond --max-streams with a
+// reason, while a stream beyond this limit waits.
 constexpr int kMaxConnectionStreams = 16'384;
-// A token and what proxies add take a few hundred.
+// A token and the headers that proxies add take a few hundred bytes.
 constexpr int kMaxHeaderBytes = 8'192;
 
-// The library adds its plugin to every server of a process that links it.
+// Removes reflection, whose library adds a plugin to every server of the process.
 class WithoutReflection : public grpc::ServerBuilderOption {
  public:
   void UpdateArguments(grpc::ChannelArguments* /*arguments*/) override {}
@@ -73,7 +73,7 @@ void Configure(const ServerOptions& options, grpc::ServerBuilder* builder) {
   builder->AddChannelArgument(GRPC_ARG_ENABLE_PER_MESSAGE_DECOMPRESSION, 0);
   // A second server on the same port must fail, not share it silently.
   builder->AddChannelArgument(GRPC_ARG_ALLOW_REUSEPORT, 0);
-  // Finds dead radio links soon.
+  // Detects dead radio links soon.
   builder->AddChannelArgument(GRPC_ARG_KEEPALIVE_TIME_MS, options.limits.keepalive_s * 1000);
   builder->AddChannelArgument(GRPC_ARG_KEEPALIVE_TIMEOUT_MS, options.limits.keepalive_s * 500);
   builder->AddChannelArgument(GRPC_ARG_HTTP2_MIN_RECV_PING_INTERVAL_WITHOUT_DATA_MS,
@@ -84,7 +84,7 @@ void Configure(const ServerOptions& options, grpc::ServerBuilder* builder) {
                                 options.max_connection_age_s * 1000);
     builder->AddChannelArgument(GRPC_ARG_MAX_CONNECTION_AGE_GRACE_MS, kAgeGraceMs);
   }
-  // What one connection may open and send is announced to it.
+  // HTTP/2 announces these limits to each connection.
   builder->AddChannelArgument(GRPC_ARG_MAX_CONCURRENT_STREAMS, kMaxConnectionStreams);
   builder->AddChannelArgument(GRPC_ARG_MAX_METADATA_SIZE, kMaxHeaderBytes);
   if (options.limits.memory_quota > 0) {
@@ -125,7 +125,7 @@ struct HomingServer::State {
   std::unique_ptr<ConsoleServer> console;
   std::unique_ptr<Housekeeping> housekeeping;
   std::string address;
-  // The store works.
+  // The store accepts writes.
   std::atomic<bool> well = true;
   std::chrono::milliseconds drain_time{};
 };

@@ -12,6 +12,7 @@
 
 namespace homing::server {
 
+// The calls run on their own threads; the methods below are not thread-safe.
 class HomingServer {
  public:
   // `clock` is the steady time for leases; default: the machine's. INVALID_ARGUMENT (options);
@@ -25,8 +26,8 @@ class HomingServer {
   const std::string& address() const;
   // "host:port" of the console and of GET /metrics; empty without it.
   std::string metrics_address() const;
-  // What to open in a browser, if there is anything: where logins are needed and `first_start`,
-  // with a login that works once.
+  // The console's URL; empty without a console. If logins are required and this is the
+  // `first_start`, it contains a login that works once.
   std::string console_link(bool first_start) const;
   // The answer of GET /metrics; empty once drained.
   std::string MetricsText() const;

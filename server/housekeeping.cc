@@ -4,13 +4,14 @@
 
 #include <string>
 
+#include "absl/time/clock.h"
 #include "server/service/fleet_service.h"
 
 namespace homing::server {
 namespace {
 
 constexpr std::chrono::seconds kRound{1};
-// Journeys live for days.
+// Interval of deletions; journeys are kept for days.
 constexpr std::chrono::seconds kDeleteEvery{60};
 constexpr std::chrono::seconds kCountEvery{10};
 constexpr std::chrono::seconds kWarnEvery{86'400};
@@ -45,7 +46,7 @@ void Housekeeping::Reload() {
   }
 }
 
-// For those that watch the fleet: robots appear when their first journey is created.
+// For watchers of the fleet: a robot appears when its first journey is created.
 void Housekeeping::CountJourneys() {
   if (!core_->fleet.IsFleetWatched()) return;
   if (const absl::Status status = CountStoredJourneys(core_); !status.ok()) {
@@ -55,7 +56,7 @@ void Housekeeping::CountJourneys() {
 
 void Housekeeping::WarnOfExpiry() {
   for (const CertificateExpiry& expiry : ReadExpiries(certificates_)) {
-    const std::string warning = ExpiryWarning(expiry, WallClockNs() / 1'000'000'000);
+    const std::string warning = ExpiryWarning(expiry, absl::GetCurrentTimeNanos() / 1'000'000'000);
     if (!warning.empty()) {
       spdlog::warn("{}", warning);
     }
@@ -63,7 +64,7 @@ void Housekeeping::WarnOfExpiry() {
 }
 
 void Housekeeping::DeleteExpired() {
-  const std::int64_t now_ns = WallClockNs();
+  const std::int64_t now_ns = absl::GetCurrentTimeNanos();
   const std::int64_t trusted_ns = clock_.TrustedSince(now_ns, std::chrono::steady_clock::now());
   const auto deleted = core_->quota.DeleteExpired(now_ns, trusted_ns);
   if (!deleted.ok()) {

@@ -14,7 +14,7 @@
 
 namespace homing::server {
 
-// One thread; the destructor waits for the current round.
+// Works on one thread; the destructor waits for the current round.
 class Housekeeping {
  public:
   // `core` must outlive it. `reload_more` is called at each reload.
@@ -25,7 +25,7 @@ class Housekeeping {
   void Reload();
 
  private:
-  // One round of all work that is due; returns the time until the next one.
+  // Does all work whose time has come; returns the time until the next round.
   std::chrono::milliseconds Work();
   void DeleteExpired();
   void WarnOfExpiry();

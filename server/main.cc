@@ -51,7 +51,7 @@ sigset_t BlockStopSignals() {
   return signals;
 }
 
-// Nobody has logged in yet.
+// True if the database does not exist yet: nobody can have logged in.
 bool IsNewDatabase(const homing::server::ServerOptions& options) {
   const auto path = homing::storage::ParseDatabaseUrl(options.database);
   std::error_code error;

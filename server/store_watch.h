@@ -11,7 +11,7 @@
 namespace homing::server {
 
 // While writes fail, it tries one each second: robots do not call a server that is not serving, so
-// nothing else would show that writes work again.
+// nothing else would show that writes work again. One thread does all its work.
 class StoreWatch {
  public:
   // Called on the watch's thread after a change; true: writes work.

@@ -19,8 +19,8 @@ namespace homing::storage {
 // few while it blocks the writer, so that the log starts again at its beginning.
 class Checkpointer {
  public:
-  // For the file at `path`. Only `writer` writes it, with `write_mutex` held; both must outlive
-  // this object. Replaces the writer's own checkpoints. Errors of Connection::Open.
+  // Starts it for the file at `path`. Only `writer` writes the file, with `write_mutex` held; both
+  // must outlive this object. Replaces the writer's own checkpoints. Errors of Connection::Open.
   static absl::StatusOr<std::unique_ptr<Checkpointer>> Start(const std::string& path,
                                                              Connection* writer, Mutex* write_mutex,
                                                              int busy_timeout_ms);

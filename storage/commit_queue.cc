@@ -23,7 +23,7 @@ struct CommitQueue::State {
 
   Mutex mutex;
   ConditionVariable changed;
-  // The two have equal length.
+  // `appends` and `callbacks` have equal length.
   std::deque<JourneyAppend> appends HOMING_GUARDED_BY(mutex);
   std::deque<Done> callbacks HOMING_GUARDED_BY(mutex);
   bool stopping HOMING_GUARDED_BY(mutex) = false;
@@ -106,7 +106,7 @@ void CommitQueue::State::CallBack() {
     lock.Unlock();
     for (std::size_t i = 0; i < batch.callbacks.size(); ++i) {
       batch.callbacks[i](std::move(batch.appends[i]), batch.statuses[i]);
-      // Release what the callback holds before the next one runs.
+      // Release the objects that the callback holds before the next callback runs.
       batch.callbacks[i] = nullptr;
     }
     lock.Lock();

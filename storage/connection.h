@@ -16,11 +16,11 @@
 
 namespace homing::storage {
 
-// For programs beside the server.
+// Time to wait for a lock, ms, for programs beside the server.
 inline constexpr int kBusyTimeoutMs = 5000;
 
 // One use of a prepared statement; the destructor resets it. Its members throw SQLite::Exception,
-// so that they may be used in the body of a transaction only.
+// so that they may be used in the body of a transaction only. Not thread-safe.
 class Query {
  public:
   explicit Query(SQLite::Statement* statement) : statement_(statement) {}
@@ -30,7 +30,7 @@ class Query {
 
   // Steps to the next row; false: there is none.
   bool Next() { return statement_->executeStep(); }
-  // For statements without rows. Returns the number of rows changed.
+  // Runs a statement without rows. Returns the number of rows changed.
   int Run() { return statement_->exec(); }
   // A value of another type, or NULL, is damage: SQLite would convert it to 0 or "".
   std::int64_t Integer(int column) { return Value(column, SQLite::INTEGER).getInt64(); }
@@ -75,19 +75,19 @@ class Connection {
   // query to its end.
   absl::Status Write(const Body& body) { return Transact("BEGIN IMMEDIATE", body); }
   absl::Status Read(const Body& body) { return Transact("BEGIN", body); }
-  // Without a transaction (PRAGMA); exceptions become the status.
+  // Runs `body` without a transaction (PRAGMA); exceptions become the status.
   absl::Status Run(const Body& body);
 
-  // In a body. `sql` must be a literal: its address is the key of the prepared statement.
+  // Call it in a body. `sql` must be a literal: its address is the key of the prepared statement.
   template <typename... Values>
   Query Prepare(const char* sql, const Values&... values) {
     SQLite::Statement& statement = Prepared(sql);
     if constexpr (sizeof...(values) > 0) SQLite::bind(statement, values...);
     return Query(&statement);
   }
-  // In a body. Any number of statements without results.
+  // Call it in a body. Runs any number of statements without results.
   void Execute(const std::string& sql) { database_.exec(sql); }
-  // In a body. The first value of one row.
+  // Call it in a body. The first value of one row.
   std::int64_t Integer(const std::string& sql) { return database_.execAndGet(sql).getInt64(); }
   std::string Text(const std::string& sql) { return database_.execAndGet(sql).getString(); }
 
@@ -110,8 +110,8 @@ class Connection {
 // cleanly.
 bool HasLog(const std::string& path);
 
-// For reading a file that a server may be using: as kReadOnly, but as kImmutable without a log, so
-// that no other file is created.
+// Opens a file that a server may be using, for reading: as kReadOnly, but as kImmutable if it has
+// no log, so that no other file is created.
 absl::StatusOr<std::unique_ptr<Connection>> OpenForReading(const std::string& path,
                                                            int busy_timeout_ms);
 

@@ -148,7 +148,7 @@ absl::Status SaveJourney(Connection& connection, const JourneyRecord& record,
   });
 }
 
-// Of a store that may be in use by many servers.
+// Examines a PostgreSQL store, which other servers may be using.
 absl::StatusOr<Diagnosis> ExamineShared(const std::string& url) {
   StoreOptions options;
   options.url = url;
@@ -193,7 +193,8 @@ absl::StatusOr<Diagnosis> Examine(const std::string& path) {
 
 absl::StatusOr<Diagnosis> Salvage(const std::string& path, const std::string& to) {
   if (IsPostgresUrl(path)) {
-    return absl::InvalidArgumentError("--salvage is for SQLite files; restore PostgreSQL's backup");
+    return absl::InvalidArgumentError(
+        "--salvage works on SQLite files only; restore a backup of PostgreSQL");
   }
   // Read first, so that no file is created when nothing can be read.
   HOMING_RETURN_IF_ERROR(OpenForReading(path, kBusyTimeoutMs).status());

@@ -18,12 +18,12 @@ namespace homing::storage {
 // replaced, without an error. Thread-safe.
 class FileIdentity {
  public:
-  // Remembers the current files as the right ones; the log, once there is one.
+  // Remembers the current files as the expected ones; the log as soon as it exists.
   explicit FileIdentity(std::string path);
 
-  // The log holds at least so many bytes that are not yet in the database.
+  // `bytes`: least size of the log, which holds pages that are not yet in the database.
   void SetLogBytes(std::int64_t bytes) { log_bytes_ = bytes; }
-  // True if the log is shorter than that.
+  // True if the log is shorter than the size given to SetLogBytes.
   bool IsLogCut();
   // UNAVAILABLE, a fault of the store: a file was removed, replaced or cut.
   absl::Status Check();

@@ -8,6 +8,7 @@
 #include "homing/base/field_error.h"
 #include "homing/base/status_macros.h"
 #include "storage/row_words.h"
+#include "storage/store_errors.h"
 
 namespace homing::storage {
 namespace {
@@ -16,25 +17,22 @@ namespace {
 constexpr std::int64_t kStepsSeen = 24;
 
 absl::Status CheckContinues(const GrowingJourney& journey, const JourneyAppend& append) {
-  if (journey.state != JourneyState::kActive) {
-    return absl::FailedPreconditionError(
-        absl::StrCat("journey '", append.journey, "' is finished"));
-  }
+  if (journey.state != JourneyState::kActive) return JourneyIsFinished(append.journey);
   if (append.epoch != journey.epoch) {
     return absl::AbortedError(absl::StrCat("journey '", append.journey,
                                            "' was taken over by another writer (epoch ",
                                            journey.epoch, ", not ", append.epoch, ")"));
   }
   if (append.sequence != journey.next_sequence) {
-    return absl::OutOfRangeError(absl::StrCat("sequence is ", append.sequence, ": ",
-                                              journey.next_sequence, " is due in journey '",
+    return absl::OutOfRangeError(absl::StrCat("sequence: ", append.sequence, " must be ",
+                                              journey.next_sequence, ", the next of journey '",
                                               append.journey, "'"));
   }
   if (journey.input != InputKind::kUnknown && append.input != InputKind::kUnknown &&
       journey.input != append.input) {
-    return absl::FailedPreconditionError(absl::StrCat("input is ", Word(append.input),
-                                                      ": journey '", append.journey,
-                                                      "' is recorded from ", Word(journey.input)));
+    return absl::FailedPreconditionError(
+        absl::StrCat("input: ", Word(append.input), " must be ", Word(journey.input),
+                     ", as before in journey '", append.journey, "'"));
   }
   return absl::OkStatus();
 }

@@ -4,8 +4,8 @@
 
 #include "absl/strings/str_cat.h"
 #include "homing/base/status_macros.h"
-#include "storage/row_words.h"
-#include "storage/settings_json.h"
+#include "storage/row_columns.h"
+#include "storage/store_errors.h"
 
 namespace homing::storage {
 namespace {
@@ -15,14 +15,8 @@ constexpr char kInsertJourney[] =
     " start_time_ns, end_time_ns, step_count, landmark_count, fingerprint_count, resend_from)"
     " VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?) ON CONFLICT (name) DO NOTHING RETURNING journey_id";
 
-#define HOMING_JOURNEY_COLUMNS                                                         \
-  "journey_id, name, state, writer_id, readers, input, next_sequence, create_time_ns," \
-  " start_time_ns, end_time_ns, step_count, landmark_count, fingerprint_count,"        \
-  " coalesce(settings, ''), resend_from"
-
-#define HOMING_JOURNEYS " FROM journeys LEFT JOIN journey_settings USING (journey_id)"
-
-constexpr char kFindJourney[] = "SELECT " HOMING_JOURNEY_COLUMNS HOMING_JOURNEYS " WHERE name = ?";
+constexpr char kFindJourney[] =
+    "SELECT " HOMING_JOURNEY_COLUMNS ", journey_id" HOMING_JOURNEYS " WHERE name = ?";
 constexpr char kListJourneys[] = "SELECT " HOMING_JOURNEY_COLUMNS HOMING_JOURNEYS
                                  " WHERE name > ? AND name >= ? AND name < ?"
                                  " ORDER BY name LIMIT ?";
@@ -37,36 +31,11 @@ constexpr char kSetWriter[] = "UPDATE journeys SET writer_id = ? WHERE name = ?"
 // Sorts after every name with this prefix: no UTF-8 text holds this byte.
 constexpr char kAfterAll[] = "\xff";
 
-absl::StatusOr<JourneyRow> ReadJourneyRow(Query& query) {
-  JourneyRow row;
-  JourneyRecord& record = row.record;
-  row.id = query.Integer(0);
-  record.name = query.Text(1);
-  HOMING_ASSIGN_OR_RETURN(record.state, StateOfWord(query.Text(2)));
-  record.writer_id = query.Text(3);
-  HOMING_ASSIGN_OR_RETURN(record.readers, NamesFromJson(query.Text(4)));
-  HOMING_ASSIGN_OR_RETURN(record.input, InputOfWord(query.Text(5)));
-  record.next_sequence = query.Integer(6);
-  record.create_time_ns = query.Integer(7);
-  record.start_time_ns = query.Integer(8);
-  record.end_time_ns = query.Integer(9);
-  record.step_count = query.Integer(10);
-  record.landmark_count = static_cast<std::int32_t>(query.Integer(11));
-  record.fingerprint_count = query.Integer(12);
-  HOMING_ASSIGN_OR_RETURN(record.settings, JourneySettingsFromJson(query.Text(13)));
-  record.resend_from = query.Integer(14);
-  return row;
-}
-
 absl::Status FoundIf(int rows_changed, const std::string& name) {
   return rows_changed > 0 ? absl::OkStatus() : JourneyNotFound(name);
 }
 
 }  // namespace
-
-absl::Status JourneyNotFound(const std::string& name) {
-  return absl::NotFoundError(absl::StrCat("journey '", name, "' does not exist"));
-}
 
 absl::StatusOr<std::int64_t> InsertJourney(Connection& connection, const JourneyRecord& record) {
   Query query = connection.Prepare(
@@ -74,9 +43,7 @@ absl::StatusOr<std::int64_t> InsertJourney(Connection& connection, const Journey
       Word(record.input), record.next_sequence, record.create_time_ns, record.start_time_ns,
       record.end_time_ns, record.step_count, record.landmark_count, record.fingerprint_count,
       record.resend_from);
-  if (!query.Next()) {
-    return absl::AlreadyExistsError(absl::StrCat("journey '", record.name, "' already exists"));
-  }
+  if (!query.Next()) return JourneyExists(record.name);
   const std::int64_t id = query.Integer(0);
   connection.Prepare(kInsertSettings, id, ToJson(record.settings)).Run();
   return id;
@@ -85,7 +52,10 @@ absl::StatusOr<std::int64_t> InsertJourney(Connection& connection, const Journey
 absl::StatusOr<JourneyRow> FindJourney(Connection& connection, const std::string& name) {
   Query query = connection.Prepare(kFindJourney, name);
   if (!query.Next()) return JourneyNotFound(name);
-  return ReadJourneyRow(query);
+  JourneyRow row;
+  HOMING_ASSIGN_OR_RETURN(row.record, ReadRecord(query));
+  row.id = query.Integer(14);
+  return row;
 }
 
 absl::StatusOr<std::vector<JourneyRecord>> ListJourneyRows(Connection& connection,
@@ -95,8 +65,7 @@ absl::StatusOr<std::vector<JourneyRecord>> ListJourneyRows(Connection& connectio
   Query query = connection.Prepare(kListJourneys, after, prefix, absl::StrCat(prefix, kAfterAll),
                                    std::max(limit, 0));
   while (query.Next()) {
-    HOMING_ASSIGN_OR_RETURN(JourneyRow row, ReadJourneyRow(query));
-    records.push_back(std::move(row.record));
+    HOMING_ASSIGN_OR_RETURN(records.emplace_back(), ReadRecord(query));
   }
   return records;
 }

@@ -45,7 +45,7 @@ struct JourneyRecord {
   std::int64_t fingerprint_count = 0;
 };
 
-// The part that one observation adds to a journey. Without a step, only the sequence is stored.
+// The part that one observation adds to a journey. If it made no step, only the sequence is stored.
 struct JourneyAppend {
   std::string journey;
   // Becomes next_sequence - 1.

@@ -110,6 +110,14 @@ std::int64_t LastSequence(std::int64_t step, std::int64_t sequence, std::int64_t
   return sequence + step_count - 1 - step;
 }
 
+JourneyRecord EmptyRecord(const JourneyRecord& record) {
+  JourneyRecord empty = record;
+  empty.step_count = 0;
+  empty.landmark_count = 0;
+  empty.fingerprint_count = 0;
+  return empty;
+}
+
 JourneyRecord FinishedRecord(const JourneyRecord& record, const JourneyMap& map) {
   JourneyRecord finished = record;
   finished.state = JourneyState::kFinished;

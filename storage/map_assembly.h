@@ -16,9 +16,9 @@ namespace homing::storage {
 // that this program does not write.
 using StepReader = std::function<absl::StatusOr<std::optional<JourneyStep>>()>;
 
-// From all rows. DATA_LOSS: they contradict each other or the record.
+// Makes the map from all rows. DATA_LOSS: they contradict each other or the record.
 absl::StatusOr<JourneyMap> AssembleMap(const JourneyRecord& record, const StepReader& next);
-// From the rows from FirstTailStep on. DATA_LOSS.
+// Makes the tail from the rows from FirstTailStep on. DATA_LOSS.
 absl::StatusOr<JourneyTail> AssembleTail(const JourneyRecord& record, std::int64_t last_sequence,
                                          const StepReader& next);
 absl::StatusOr<std::vector<JourneyStep>> AssembleSteps(const JourneyRecord& record,
@@ -29,6 +29,9 @@ std::int64_t LastSequence(std::int64_t step, std::int64_t sequence, std::int64_t
 
 // One step as its row holds it.
 JourneyStep StepOfMap(const JourneyMap& map, std::int64_t number);
+// The row of a journey that begins: all counts are 0.
+JourneyRecord EmptyRecord(const JourneyRecord& record);
+
 // The row of an imported journey.
 JourneyRecord FinishedRecord(const JourneyRecord& record, const JourneyMap& map);
 

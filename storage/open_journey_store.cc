@@ -24,7 +24,8 @@ absl::Status MakeDurable(Connection& connection, const std::string& path) {
     const std::string mode = connection.Text("PRAGMA journal_mode=WAL");
     if (mode != "wal" && path != kInMemory) {
       return absl::FailedPreconditionError(absl::StrCat("store: journal_mode of '", path, "' is ",
-                                                        mode, ": the file system cannot do WAL"));
+                                                        mode,
+                                                        ": the file system does not support WAL"));
     }
     connection.Execute("PRAGMA synchronous=FULL");
     connection.Execute("PRAGMA journal_size_limit=67108864");

@@ -4,6 +4,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "homing/base/status_macros.h"
+#include "storage/store_errors.h"
 
 namespace homing::storage {
 namespace {
@@ -221,29 +222,19 @@ absl::Status CheckOwner(Connection& connection, std::int64_t version) {
                                                     ": the file is another program's database"));
 }
 
-absl::Status CheckNotNewer(std::int64_t version) {
-  if (version <= kSchemaVersion && version >= 0) return absl::OkStatus();
-  return absl::FailedPreconditionError(absl::StrCat("store: schema version is ", version,
-                                                    ", newer than this program's ", kSchemaVersion,
-                                                    ": use a newer homing-server"));
-}
-
 }  // namespace
 
 absl::Status CheckOwnFile(Connection& connection) {
   const std::int64_t version = connection.Integer("PRAGMA user_version");
   HOMING_RETURN_IF_ERROR(CheckOwner(connection, version));
-  return CheckNotNewer(version);
+  return CheckNotNewer(version, kSchemaVersion);
 }
 
 absl::Status CheckSchema(Connection& connection) {
   return connection.Read([&]() -> absl::Status {
     HOMING_RETURN_IF_ERROR(CheckOwnFile(connection));
     const std::int64_t version = connection.Integer("PRAGMA user_version");
-    if (version == kSchemaVersion) return absl::OkStatus();
-    return absl::FailedPreconditionError(absl::StrCat(
-        "store: schema version is ", version, ", older than this program's ", kSchemaVersion,
-        ": start homing-server on it once, not read-only, to migrate it"));
+    return CheckSameVersion(version, kSchemaVersion);
   });
 }
 

@@ -18,13 +18,14 @@ inline constexpr std::int64_t kSchemaVersion = 4;
 // FAILED_PRECONDITION: a newer version, or another program's file.
 absl::Status Migrate(Connection& connection);
 
-// Without a transaction. FAILED_PRECONDITION: another program's file, or a newer version.
+// Runs without a transaction. FAILED_PRECONDITION: another program's file, or a newer version.
 absl::Status CheckOwnFile(Connection& connection);
 
-// For a file that must not change. FAILED_PRECONDITION: another version, or another program's file.
+// Checks a file that must not change. FAILED_PRECONDITION: another version, or another program's
+// file.
 absl::Status CheckSchema(Connection& connection);
 
-// In a body. Rewrites the stored version: a write of one page without a change.
+// Call it in a body. Rewrites the stored version: writes one page without a change.
 absl::Status TouchSchemaVersion(Connection& connection);
 
 }  // namespace homing::storage

@@ -29,7 +29,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-// Five values, unless the lens has more: so that stored settings read as before.
+// Five values unless the lens has more, so that the text of older settings stays the same.
 Json DistortionToJson(const Camera& camera) {
   std::vector<double> values(camera.distortion.begin(), camera.distortion.end());
   if (values[5] == 0 && values[6] == 0 && values[7] == 0) values.resize(5);
@@ -49,7 +49,7 @@ Json CameraToJson(const Camera& camera) {
                {"height", camera.height},
                {"distortion", DistortionToJson(camera)},
                {"yaw_rad", camera.yaw_rad}};
-  // Written only where it says something, so that other cameras read as before.
+  // Written only if true, so that the text of other cameras stays the same.
   if (camera.fisheye) json["fisheye"] = true;
   if (camera.intrinsics) json["intrinsics"] = *camera.intrinsics;
   return json;
@@ -75,7 +75,7 @@ absl::StatusOr<Result> Parse(const std::string& text, const char* what, Read rea
     return result;
   } catch (const Json::exception& exception) {
     return absl::DataLossError(
-        absl::StrCat("store: ", what, " are not the JSON expected: ", exception.what()));
+        absl::StrCat("store: ", what, " are not valid JSON of their form: ", exception.what()));
   }
 }
 

@@ -11,9 +11,9 @@
 namespace homing::storage {
 namespace {
 
-// Less does not hold the log of a deletion.
+// A smaller reserve cannot hold the log of a deletion.
 constexpr std::int64_t kLeastBytes = 256 << 10;
-// Less more is not worth another try.
+// A smaller gain is not worth another attempt.
 constexpr std::int64_t kGrowth = 1 << 20;
 
 std::int64_t FreeBytes(const std::string& path) {
@@ -37,12 +37,12 @@ void SpaceReserve::Fill() {
 
 void SpaceReserve::TakeBack(std::int64_t bytes) {
   if (bytes < kLeastBytes || !can_reserve_) return;
-  // What exists under the name is not this server's.
+  // An existing file of this name does not belong to this server.
   const int flags = O_WRONLY | O_CREAT | O_CLOEXEC | O_NOFOLLOW | (bytes_ == 0 ? O_EXCL : 0);
   const int file = ::open(path_.c_str(), flags, 0600);
   if (file < 0) return;
   while (bytes > bytes_ && bytes >= kLeastBytes) {
-    // A file system that cannot has no reserve: to write as much would take too long.
+    // A file system without fallocate has no reserve: writing as many bytes would take too long.
     if (::fallocate(file, 0, 0, bytes) == 0) {
       bytes_ = bytes;
     } else {

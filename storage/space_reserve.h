@@ -7,24 +7,24 @@
 
 namespace homing::storage {
 
-// A file without content beside the store. Not thread-safe.
+// A file beside the store that has space but no content. Not thread-safe.
 class SpaceReserve {
  public:
-  // As much as the log may hold before it is moved into the file, which may then grow by that.
+  // The most that the log holds before it is moved into the file, which may then grow by as much.
   static constexpr std::int64_t kMostBytes = 64 << 20;
 
-  // Gives up what a server before this one kept, so that the store can be opened on a full disk.
+  // Frees the reserve of an earlier server, so that the store can be opened on a full disk.
   explicit SpaceReserve(const std::string& store_path);
   ~SpaceReserve() { GiveUp(); }
   SpaceReserve(const SpaceReserve&) = delete;
   SpaceReserve& operator=(const SpaceReserve&) = delete;
 
-  // Keeps kMostBytes, but no more than a quarter of what is free.
+  // Reserves kMostBytes, but at most a quarter of the free space.
   void Fill();
-  // Keeps up to `bytes` again, whatever is left then.
+  // Reserves up to `bytes` again, however little space is left then.
   void TakeBack(std::int64_t bytes);
   std::int64_t bytes() const { return bytes_; }
-  // Returns how many bytes the disk has more now.
+  // Frees the reserve. Returns the number of freed bytes.
   std::int64_t GiveUp();
 
  private:

@@ -103,7 +103,8 @@ absl::Status SqliteJourneyStore::DeleteJourney(const std::string& name) {
   if (bytes == 0) return deleted;
   const Pieces pieces{std::clamp(bytes / kLogBytesAStep, kLeastPiece, kPiece), true};
   absl::Status again = DeleteOnce(name, pieces, &is_hidden);
-  // Once it is in the file, the log begins anew: what follows needs no more space.
+  // Moves the log into the file. The log then restarts at its beginning, so that later writes need
+  // no more space.
   checkpointer_->MoveNow();
   if (absl::IsResourceExhausted(again)) {
     again = DeleteOnce(name, pieces, &is_hidden);

@@ -12,6 +12,7 @@
 #include "storage/model_rows.h"
 #include "storage/schema.h"
 #include "storage/sqlite_status.h"
+#include "storage/store_errors.h"
 
 namespace homing::storage {
 namespace {
@@ -19,7 +20,7 @@ namespace {
 // Bytes of the header of SQLite's log, and of the header of each page in it.
 constexpr std::int64_t kLogHeaderBytes = 32;
 constexpr std::int64_t kLogFrameBytes = 24;
-// As journal_size_limit: a longer log is cut by SQLite itself.
+// As journal_size_limit: SQLite truncates a longer log.
 constexpr std::int64_t kLogKeptBytes = 67'108'864;
 // Least time between two checks of a damaged file.
 constexpr std::chrono::seconds kCheckEvery{10};
@@ -42,10 +43,7 @@ absl::Status SqliteJourneyStore::StartCheckpoints(int busy_timeout_ms) {
 }
 
 absl::Status SqliteJourneyStore::Transact(const Body& body) {
-  if (read_only()) {
-    return absl::FailedPreconditionError(
-        "store: it is read-only (--readonly): nothing can be recorded, changed or deleted");
-  }
+  if (read_only()) return ReadOnlyError();
   const MutexLock lock(write_mutex_);
   HOMING_RETURN_IF_ERROR(CheckFiles());
   Connection& writer = *writer_;
@@ -86,7 +84,7 @@ void SqliteJourneyStore::NoteHealth(const absl::Status& written, bool changed) {
   const bool fault = IsStoreFault(written);
   if (!fault && !(written.ok() && changed)) return;
   const MutexLock lock(health_mutex_);
-  // A part that can be written does not heal another that is damaged.
+  // A successful write to one part of the file does not prove that a damaged part is whole.
   if (!fault && absl::IsDataLoss(write_health_)) return;
   write_health_ = fault ? written : absl::OkStatus();
 }
@@ -154,11 +152,9 @@ absl::StatusOr<Result> SqliteJourneyStore::ReadOne(Query query) {
 }
 
 absl::Status SqliteJourneyStore::CreateJourney(const JourneyRecord& record) {
-  JourneyRecord empty = record;
-  empty.step_count = 0;
-  empty.landmark_count = 0;
-  empty.fingerprint_count = 0;
-  return Write([&](Connection& connection) { return InsertJourney(connection, empty).status(); });
+  return Write([&](Connection& connection) {
+    return InsertJourney(connection, EmptyRecord(record)).status();
+  });
 }
 
 absl::StatusOr<JourneyRecord> SqliteJourneyStore::GetJourney(const std::string& name) {
@@ -185,9 +181,7 @@ absl::StatusOr<AcquiredJourney> SqliteJourneyStore::AcquireJourney(const std::st
   AcquiredJourney acquired;
   const absl::Status status = Transact([&](Connection& connection) -> absl::Status {
     HOMING_ASSIGN_OR_RETURN(JourneyRow row, FindJourney(connection, name));
-    if (row.record.state == JourneyState::kFinished) {
-      return absl::FailedPreconditionError(absl::StrCat("journey '", name, "' is finished"));
-    }
+    if (row.record.state == JourneyState::kFinished) return JourneyIsFinished(name);
     if (row.record.writer_id != writer_id) {
       HOMING_RETURN_IF_ERROR(SetJourneyWriter(connection, name, writer_id));
       row.record.writer_id = writer_id;

@@ -21,6 +21,7 @@
 
 namespace homing::storage {
 
+// Thread-safe, as every JourneyStore.
 class SqliteJourneyStore final : public JourneyStore {
  public:
   // `lock` and `queries` are null for a store in memory, which has one connection. `writer` is null
@@ -83,16 +84,16 @@ class SqliteJourneyStore final : public JourneyStore {
   absl::Status DeleteOnce(const std::string& name, Pieces pieces, bool* is_hidden);
   // The steps that are left of all hidden journeys.
   absl::Status DeleteHidden(Pieces pieces);
-  // Where there is space again.
+  // Fills the reserve if the disk has space.
   void FillReserve() HOMING_REQUIRES(reserve_mutex_);
-  // Not while a deletion uses it.
+  // As FillReserve; does nothing while a deletion uses the reserve.
   void TryFillReserve();
-  // The log holds no more than the file can grow by when the reserve is given up.
+  // Limits the log to the bytes by which the file can grow once the reserve is freed.
   void LimitLog() HOMING_REQUIRES(reserve_mutex_);
-  // The files are those that were opened. A store in memory has none.
+  // UNAVAILABLE unless the files are still those that were opened. OK for a store in memory.
   absl::Status CheckFiles();
   void NoteLogPages(int pages);
-  // After damage: the whole file passes SQLite's check again. Tries it now and then.
+  // True if a damaged file passes SQLite's whole check again. The check runs at most every 10 s.
   bool IsHealed();
   void NoteHealth(const absl::Status& written, bool changed);
   absl::Status Read(const Body& body);

@@ -15,7 +15,8 @@ absl::Status StatusFromSqlite(int code, const std::string& message);
 absl::Status StatusFromException(const SQLite::Exception& exception);
 // A fault of the store that SQLite did not report.
 absl::Status StoreFault(absl::StatusCode code, const std::string& message);
-// `status` was made here, and the store is at fault (full, unreadable, locked), not the request.
+// True if `status` was made here for a fault of the store (full, unreadable, locked), not of the
+// request.
 bool IsStoreFault(const absl::Status& status);
 
 }  // namespace homing::storage

@@ -6,6 +6,7 @@
 #include "storage/journey_rows.h"
 #include "storage/row_words.h"
 #include "storage/step_rows.h"
+#include "storage/store_errors.h"
 
 namespace homing::storage {
 namespace {

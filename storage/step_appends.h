@@ -17,7 +17,7 @@
 namespace homing::storage {
 
 // The appends of successive transactions. A journey's row changes with each append: it is read
-// once, written once a transaction, and kept for the next one.
+// once, written once a transaction, and kept for the next one. Not thread-safe.
 class StepAppends {
  public:
   explicit StepAppends(Connection* connection) : connection_(connection) {}
@@ -42,7 +42,7 @@ class StepAppends {
   Connection* const connection_;
   std::unordered_map<std::string, GrowingJourney> journeys_;
   std::vector<GrowingJourney*> changed_;
-  // One process writes the file, and its appends end with it: epochs need not be stored.
+  // Epochs are not stored: only one process writes the file, and its appends end with the process.
   std::unordered_map<std::string, std::int64_t> epochs_;
   std::int64_t last_epoch_ = 0;
 };

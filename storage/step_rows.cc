@@ -40,7 +40,7 @@ constexpr int kSequence = kFirstProfile + 2;
 
 Side SideOfPlace(int place) { return Side{place / kPlacesOfSide}; }
 
-// Its first column in SELECT, from 0.
+// The place's first column in SELECT, from 0.
 int ColumnOfPlace(int place) { return 1 + place * kColumnsOfPlace; }
 
 // -1: no step holds it.

@@ -10,7 +10,7 @@
 namespace homing::storage {
 
 // Locks the file "PATH-lock" beside the store while it lives. The system frees the lock when the
-// process ends in any way. Other programs may read the store meanwhile.
+// process ends in any way. Other programs may read the store meanwhile. Not thread-safe.
 class StoreLock {
  public:
   // UNAVAILABLE: another process, or another store of this process, has the lock.

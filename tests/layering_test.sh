@@ -1,11 +1,13 @@
 #!/bin/sh
-# Dependencies between folders, forbidden contents, the length of files, the sources in a folder. Debian keeps the
+# Dependencies between folders, forbidden contents, the length of files and functions, the sources in a folder. Debian keeps the
 # headers of gRPC, SQLite and OpenCV in /usr/include, so that a wrong include compiles: this test forbids it.
 #   layering_test.sh [ROOT]        checks the tree
 #   layering_test.sh --self-test   plants one violation of each rule in a scratch tree and expects it to be found
 set -u
 
 max_lines=300
+max_function=60
+max_median=10
 max_sources=25
 
 # The includes allowed to one folder's files, without its subfolders: "FOLDER ALLOWED...". An allowed name that ends in a slash is
@@ -141,6 +143,22 @@ check_lengths() {
     FNR == most + 1 { print FILENAME " has more than " most " lines" }'
 }
 
+# Functions at the left edge of sources, as clang-format puts them: from the name to the brace that ends them.
+function_lengths() {
+  sources homing storage server proto cli client | grep '\.cc$' | xargs -r awk '
+    FNR == 1 { start = inside = 0 }
+    !inside && /^[A-Za-z_]/ { start = FNR; head = $0 }
+    !inside && start && /[{}]$/ && head ~ /\(/ && head !~ /^(class|struct|enum|union|namespace|using) / { inside = 1 }
+    inside && /(^}|^[A-Za-z_].*})$/ { print FNR - start + 1, FILENAME ":" start; inside = start = 0 }' | sort -n
+}
+
+check_functions() {
+  function_lengths | awk -v most="$max_function" -v most_median="$max_median" '
+    $1 > most { print $2 " begins a function of " $1 " lines" }
+    { length_of[NR] = $1 }
+    END { if (NR > 1 && length_of[int((NR + 1) / 2)] > most_median) print "the median function is too long" }'
+}
+
 # Sources in one folder, without its subfolders.
 check_sizes() {
   sources homing storage server proto cli client tests | sed -n 's|/[^/]*\.cc$||p' | sort | uniq -c |
@@ -151,7 +169,7 @@ check_tree() {
   cd "$1" || exit 2
   failed=0
   [ -n "$(sources homing)" ] || fail "no sources in $1"
-  found=$(check_directions; check_contents; check_names; check_lengths; check_sizes)
+  found=$(check_directions; check_contents; check_names; check_lengths; check_functions; check_sizes)
   [ -z "$found" ] || { echo "$found" | sed 's/^/layering: /'; failed=1; }
   return $failed
 }
@@ -230,6 +248,8 @@ self_test() {
   plant cli/a.cc '#include "client/connection.h"'
   plant homing/flow/string_util.cc 'int x;'
   plant tests/a.cc "$(yes 'int x;\n' | head -400 | tr -d '\n')"
+  plant homing/flow/a.cc "void Long() {\n$(yes '  Work();\n' | head -60 | tr -d '\n')}"
+  plant homing/flow/a.cc "$(printf 'void Work%s() {\\n\\n\\n\\n\\n\\n\\n\\n\\n\\n}\\n' 1 2 3)"
   max_sources=0
   plant homing/flow/a.cc 'int x;'
   [ $planted_bad = 0 ] && echo "self-test: every planted violation is found"

@@ -38,6 +38,7 @@ nobody is asked
 what came of
 has been through
 what is seen of
+goes on from
 what was acknowledged stays'
 
 files=$(git ls-files server storage proto client homing tests deploy README.md SECURITY.md CONTRIBUTING.md docs |

@@ -1,4 +1,4 @@
-// Recordings of robots (bags): topics, and the bytes of their messages.
+// Files in which robots record messages (bags): topics, and the bytes of their messages.
 #ifndef CLIENT_BAG_BAG_H_
 #define CLIENT_BAG_BAG_H_
 
@@ -19,7 +19,7 @@ enum class Content { kOther, kRawImage, kCompressedImage, kCameraInfo };
 struct MessagePlace {
   // Nanoseconds; when it was recorded.
   std::int64_t time_ns = 0;
-  // Where its chunk begins in the file; -1: it lies in none.
+  // Offset of its chunk in the file; -1: it is in no chunk.
   std::int64_t chunk = -1;
   std::int64_t offset = 0;
   std::uint32_t channel = 0;
@@ -36,7 +36,7 @@ struct BagTopic {
 };
 
 struct BagLimits {
-  // Of one chunk or message once decompressed, bytes.
+  // Largest decompressed size of one chunk or message, bytes.
   std::uint64_t max_chunk = std::uint64_t{256} << 20;
 };
 
@@ -52,11 +52,11 @@ class Bag {
   virtual absl::StatusOr<std::string> Read(const MessagePlace& place) = 0;
 
  protected:
-  // The topic's place in topics_; made if it is new.
+  // The topic's index in topics_; adds the topic if it is new.
   std::size_t AddTopic(const std::string& name, const std::string& type, Wire wire);
-  // Only the first is kept.
+  // Only the first report is kept.
   void ReportDamage(const std::string& what);
-  // At the end of opening.
+  // Call it at the end of opening.
   void SortTopics();
 
   std::vector<BagTopic> topics_;

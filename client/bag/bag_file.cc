@@ -43,7 +43,7 @@ BagFile::~BagFile() {
 }
 
 absl::StatusOr<BagFile> BagFile::Open(const std::string& path) {
-  // Opening a pipe without a writer must not wait.
+  // O_NONBLOCK: opening a pipe without a writer must not wait.
   const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
   if (descriptor < 0) return FileError(path, errno);
   struct stat about {};

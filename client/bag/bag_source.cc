@@ -44,8 +44,8 @@ class BagSource : public FrameSource {
     return true;
   }
 
-  // Stamps: the times of recording differ from camera to camera by what the messages took on their
-  // way. Reads each message.
+  // The keys are the messages' stamps: the times of recording differ between cameras by the
+  // messages' delays. This reads each message.
   FrameKeys keys() const override {
     FrameKeys keys{FrameKeys::Kind::kTime, {}};
     keys.values.reserve(topic_->messages.size());
@@ -62,7 +62,8 @@ class BagSource : public FrameSource {
   std::optional<Camera> camera() const override { return camera_; }
   std::string remark() const override { return bag_->damage(); }
 
-  // From the first message of the camera_info topic; a camera that is not calibrated gives none.
+  // Reads the camera from the first message of the camera_info topic; an uncalibrated camera gives
+  // none.
   absl::Status ReadCamera() {
     const BagTopic* const info_topic = FindCameraInfo(bag_->topics(), *topic_);
     if (info_topic == nullptr) return absl::OkStatus();
@@ -88,7 +89,7 @@ class BagSource : public FrameSource {
 
   std::string path_;
   std::unique_ptr<Bag> bag_;
-  // Of bag_.
+  // Points into bag_.
   const BagTopic* topic_;
   std::size_t next_ = 0;
   std::optional<Camera> camera_;

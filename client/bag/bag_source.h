@@ -14,7 +14,7 @@ namespace homing::client::bag {
 
 struct BagName {
   std::string path;
-  // Empty: to be chosen.
+  // Empty: ChooseImageTopic selects one.
   std::string topic;
 };
 

@@ -12,7 +12,7 @@
 namespace homing::client::bag {
 
 // After the first read beyond the end, ok() is false and every read gives zeros and empty texts. So
-// a caller reads a whole record and checks once. Does not own the bytes.
+// a caller reads a whole record and checks once. Does not own the bytes. Not thread-safe.
 class ByteReader {
  public:
   explicit ByteReader(std::string_view bytes) : bytes_(bytes) {}

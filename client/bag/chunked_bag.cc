@@ -31,12 +31,22 @@ void ChunkedBag::AddIndex(std::uint32_t channel, std::vector<MessagePlace> place
 void ChunkedBag::TakeChunk(bool messages) {
   const auto offset = static_cast<std::uint64_t>(open_chunk_);
   const auto records = Chunk(offset);
-  const absl::Status status =
-      records.ok() ? ScanChunk(*records, offset, messages) : records.status();
-  if (!status.ok()) {
-    ReportDamage(absl::StrCat(file_.path(), ": the chunk at byte ", offset,
-                              " is damaged: ", std::string(status.message())));
+  CheckPart("chunk", offset,
+            records.ok() ? ScanChunk(*records, offset, messages) : records.status());
+}
+
+void ChunkedBag::CheckPart(const char* part, std::uint64_t offset, const absl::Status& status) {
+  if (status.ok()) return;
+  ReportDamage(absl::StrCat(file_.path(), ": the ", part, " at byte ", offset,
+                            " is damaged: ", std::string(status.message())));
+}
+
+void ChunkedBag::EndScan(bool whole, std::uint64_t offset) {
+  if (!whole) {
+    ReportDamage(absl::StrCat(file_.path(), " ends too early; the bytes after ", offset, " of ",
+                              file_.size(), " are not read"));
   }
+  SortTopics();
 }
 
 void ChunkedBag::EndChunk(bool complete) {
@@ -64,6 +74,13 @@ absl::StatusOr<std::string_view> ChunkedBag::Chunk(std::uint64_t offset) {
     loaded_chunk_ = static_cast<std::int64_t>(offset);
   }
   return std::string_view(loaded_);
+}
+
+absl::StatusOr<std::string_view> ChunkedBag::BytesInChunk(const MessagePlace& place) {
+  HOMING_ASSIGN_OR_RETURN(std::string_view bytes, Chunk(static_cast<std::uint64_t>(place.chunk)));
+  const auto offset = static_cast<std::uint64_t>(place.offset);
+  if (offset > bytes.size()) return absl::DataLossError("the index points behind its chunk");
+  return bytes.substr(offset);
 }
 
 }  // namespace homing::client::bag

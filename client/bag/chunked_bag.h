@@ -18,6 +18,7 @@
 
 namespace homing::client::bag {
 
+// Not thread-safe.
 class ChunkedBag : public Bag {
  protected:
   ChunkedBag(BagFile file, const BagLimits& limits) : file_(std::move(file)), limits_(limits) {}
@@ -29,7 +30,7 @@ class ChunkedBag : public Bag {
 
   // A message of an unknown or an uninteresting channel is left out.
   void AddMessage(const MessagePlace& place);
-  // For channels of unknown meaning, too.
+  // Call it for channels of unknown content, too.
   void SetChannel(std::uint32_t channel, std::size_t topic) { channels_[channel] = topic; }
 
   // While scanning the file: a chunk record, index records behind it, any other record or the end.
@@ -37,9 +38,15 @@ class ChunkedBag : public Bag {
   void AddIndex(std::uint32_t channel, std::vector<MessagePlace> places);
   // `complete`: the file continues after the chunk's indexes.
   void EndChunk(bool complete);
+  // Reports the `part` ("record") at `offset` as damaged unless `status` is OK.
+  void CheckPart(const char* part, std::uint64_t offset, const absl::Status& status);
+  // Call it at the end of the scan. `whole`: the file is complete; else it ends at `offset`.
+  void EndScan(bool whole, std::uint64_t offset);
 
   // The chunk that was used last stays in memory. The view lasts until the next call.
   absl::StatusOr<std::string_view> Chunk(std::uint64_t offset);
+  // The bytes of a message's chunk from the message on. DATA_LOSS.
+  absl::StatusOr<std::string_view> BytesInChunk(const MessagePlace& place);
 
   BagFile file_;
   BagLimits limits_;

@@ -14,7 +14,8 @@
 namespace homing::client::bag {
 namespace {
 
-// Output grows by at most this much at once: what is claimed is never allocated unseen.
+// The output grows by at most this much at once: a size that the file claims is never allocated
+// without data.
 constexpr std::uint64_t kPiece = std::uint64_t{1} << 20;
 
 // One step: consumes input, fills [out, out + room). DATA_LOSS.
@@ -30,7 +31,7 @@ absl::StatusOr<std::string> Run(std::string_view bytes, std::uint64_t most, cons
   std::string result;
   while (true) {
     const std::size_t before = result.size();
-    // One byte more than allowed, so that more than that is noticed.
+    // Leaves room for one byte more than allowed, so that a longer output is detected.
     const std::uint64_t room = std::min(kPiece, most + 1 - before);
     result.resize(before + static_cast<std::size_t>(room));
     HOMING_ASSIGN_OR_RETURN(const Progress progress,
@@ -38,7 +39,8 @@ absl::StatusOr<std::string> Run(std::string_view bytes, std::uint64_t most, cons
     bytes.remove_prefix(progress.consumed);
     result.resize(before + progress.produced);
     if (result.size() > most) {
-      return absl::DataLossError(absl::StrCat("more than ", most, " bytes are compressed in it"));
+      return absl::DataLossError(
+          absl::StrCat("it has more than ", most, " bytes once decompressed"));
     }
     if (progress.end) return result;
     if (progress.consumed == 0 && progress.produced == 0) {
@@ -50,7 +52,7 @@ absl::StatusOr<std::string> Run(std::string_view bytes, std::uint64_t most, cons
 absl::StatusOr<std::string> DecompressLz4(std::string_view bytes, std::uint64_t most) {
   LZ4F_dctx* raw = nullptr;
   if (LZ4F_isError(LZ4F_createDecompressionContext(&raw, LZ4F_VERSION)) != 0U) {
-    return absl::ResourceExhaustedError("no memory for LZ4");
+    return absl::ResourceExhaustedError("out of memory for LZ4");
   }
   const std::unique_ptr<LZ4F_dctx, decltype(&LZ4F_freeDecompressionContext)> context(
       raw, &LZ4F_freeDecompressionContext);
@@ -70,7 +72,7 @@ absl::StatusOr<std::string> DecompressLz4(std::string_view bytes, std::uint64_t 
 absl::StatusOr<std::string> DecompressBz2(std::string_view bytes, std::uint64_t most) {
   bz_stream stream{};
   if (BZ2_bzDecompressInit(&stream, 0, 0) != BZ_OK) {
-    return absl::ResourceExhaustedError("no memory for bzip2");
+    return absl::ResourceExhaustedError("out of memory for bzip2");
   }
   const std::unique_ptr<bz_stream, decltype(&BZ2_bzDecompressEnd)> end(&stream,
                                                                        &BZ2_bzDecompressEnd);
@@ -86,7 +88,7 @@ absl::StatusOr<std::string> DecompressBz2(std::string_view bytes, std::uint64_t 
         stream.avail_out = static_cast<unsigned>(room);
         const int result = BZ2_bzDecompress(&stream);
         if (result != BZ_OK && result != BZ_STREAM_END) {
-          return absl::DataLossError(absl::StrCat("bzip2 says error ", result));
+          return absl::DataLossError(absl::StrCat("bzip2 reports error ", result));
         }
         return Progress{size - stream.avail_in, room - stream.avail_out, result == BZ_STREAM_END};
       });
@@ -99,7 +101,7 @@ absl::StatusOr<std::string> DecompressUpTo(std::string_view name, std::string_vi
   if (name == "bz2") return DecompressBz2(bytes, most);
   if (name.empty() || name == "none") return std::string(bytes);
   return absl::InvalidArgumentError(
-      absl::StrCat("its compression \"", std::string(name), "\" is not none, zstd, lz4 or bz2"));
+      absl::StrCat("its compression \"", std::string(name), "\" must be none, zstd, lz4 or bz2"));
 }
 
 }  // namespace
@@ -107,7 +109,7 @@ absl::StatusOr<std::string> DecompressUpTo(std::string_view name, std::string_vi
 absl::StatusOr<std::string> DecompressZstd(std::string_view bytes, std::uint64_t most) {
   const std::unique_ptr<ZSTD_DCtx, decltype(&ZSTD_freeDCtx)> context(ZSTD_createDCtx(),
                                                                      &ZSTD_freeDCtx);
-  if (context == nullptr) return absl::ResourceExhaustedError("no memory for zstd");
+  if (context == nullptr) return absl::ResourceExhaustedError("out of memory for zstd");
   return Run(bytes, most,
              [&](std::string_view in, char* out, std::size_t room) -> absl::StatusOr<Progress> {
                ZSTD_inBuffer input{in.data(), in.size(), 0};

@@ -12,7 +12,7 @@ namespace homing::client::bag {
 
 // By the names that bags use: "" and "none", "zstd", "lz4" (frames), "bz2". DATA_LOSS: the bytes
 // are damaged, end too early, or are not `size` bytes long once decompressed. INVALID_ARGUMENT:
-// another name. Memory follows what is decompressed, not `size`.
+// another name. Memory grows with the decompressed bytes, not with `size`.
 absl::StatusOr<std::string> Decompress(std::string_view name, std::string_view bytes,
                                        std::uint64_t size);
 

@@ -13,7 +13,7 @@ namespace homing::client::bag {
 namespace {
 
 absl::Status Short(const BagTopic& topic) {
-  return absl::DataLossError(absl::StrCat("the message is no whole ", topic.type));
+  return absl::DataLossError(absl::StrCat("the message is not a complete ", topic.type));
 }
 
 absl::StatusOr<SourceFrame> Compressed(std::string_view data, std::string_view format) {
@@ -41,7 +41,7 @@ absl::StatusOr<Message> Parse(const BagTopic& topic, std::string_view bytes) {
 }
 
 std::int64_t Nanoseconds(const google::protobuf::Timestamp& time) {
-  // Beyond what 64 bits hold: none.
+  // Times that do not fit into 64 bits count as absent.
   constexpr std::int64_t kSecond = 1'000'000'000;
   if (time.seconds() < 0 ||
       time.seconds() > std::numeric_limits<std::int64_t>::max() / kSecond - 1) {
@@ -124,7 +124,7 @@ std::int64_t StampOf(const BagTopic& topic, std::string_view bytes) {
     const std::int64_t stamp = reader.Header();
     return reader.ok() ? stamp : 0;
   }
-  // Both kinds have it in the same place.
+  // Both image types have the timestamp in the same field.
   const auto message = Parse<foxglove::CompressedImage>(topic, bytes);
   return message.ok() ? Nanoseconds(message->timestamp()) : 0;
 }
@@ -139,7 +139,7 @@ absl::StatusOr<CameraInfo> DecodeCameraInfo(const BagTopic& topic, std::string_v
   info.distortion_model = std::string(reader.Text());
   info.distortion = reader.Doubles(reader.Take<std::uint32_t>());
   info.matrix = reader.Doubles(9);
-  // Rectification.
+  // Skips the rectification matrix.
   reader.Doubles(9);
   info.projection = reader.Doubles(12);
   if (!reader.ok()) return Short(topic);

@@ -7,10 +7,10 @@
 
 namespace homing::client::bag {
 
-// At the beginning and at the end.
+// The bytes at the beginning and at the end of a file.
 inline constexpr std::string_view kMcapMagic("\x89MCAP0\r\n", 8);
 
-// Before each record, followed by its length in eight bytes.
+// The byte before each record, followed by the record's length in eight bytes.
 namespace mcap_opcode {
 inline constexpr std::uint8_t kHeader = 0x01;
 inline constexpr std::uint8_t kFooter = 0x02;

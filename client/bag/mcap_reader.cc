@@ -20,7 +20,7 @@ namespace {
 constexpr std::uint64_t kHeadBytes = 9;
 // Channel, sequence number and two times before a message's bytes.
 constexpr std::uint64_t kMessageHeadBytes = 22;
-// Far more than what a chunk has before its records.
+// More than the bytes of a chunk before its records.
 constexpr std::uint64_t kChunkHeadBytes = 256;
 
 struct ChunkHead {
@@ -54,7 +54,8 @@ class McapReader : public ChunkedBag {
   absl::Status TakeSchema(std::string_view record);
   absl::Status TakeChannel(std::string_view record);
   absl::Status TakeIndex(std::string_view record);
-  // Of one that begins at `offset` of the file, or of the chunk at `chunk`; only its head is read.
+  // Adds the message that begins at `offset` of the file, or of the chunk at `chunk`; reads only
+  // its head.
   absl::Status TakeMessage(std::string_view head, std::int64_t chunk, std::uint64_t offset);
   absl::StatusOr<ChunkHead> ReadChunkHead(std::uint64_t offset) const;
 
@@ -135,8 +136,9 @@ absl::StatusOr<ChunkHead> McapReader::ReadChunkHead(std::uint64_t offset) const 
 absl::StatusOr<std::string> McapReader::LoadChunk(std::uint64_t offset) {
   HOMING_ASSIGN_OR_RETURN(const ChunkHead head, ReadChunkHead(offset));
   if (head.size > limits_.max_chunk || head.records_size > limits_.max_chunk) {
-    return absl::ResourceExhaustedError(absl::StrCat(
-        "it has ", std::max(head.size, head.records_size), " bytes; most is ", limits_.max_chunk));
+    return absl::ResourceExhaustedError(absl::StrCat("it has ",
+                                                     std::max(head.size, head.records_size),
+                                                     " bytes; the limit is ", limits_.max_chunk));
   }
   HOMING_ASSIGN_OR_RETURN(const std::string bytes,
                           file_.Read(offset + head.records_offset, head.records_size));
@@ -192,18 +194,11 @@ absl::Status McapReader::Scan() {
     const auto size = reader.Take<std::uint64_t>();
     if (!reader.ok() || size > file_.size() - offset - kHeadBytes) break;
     whole = opcode == mcap_opcode::kDataEnd || opcode == mcap_opcode::kFooter;
-    if (const absl::Status status = TakeRecord(opcode, offset, size); !status.ok()) {
-      ReportDamage(absl::StrCat(file_.path(), ": the record at byte ", offset,
-                                " is damaged: ", std::string(status.message())));
-    }
+    CheckPart("record", offset, TakeRecord(opcode, offset, size));
     offset += kHeadBytes + size;
   }
   EndChunk(/*complete=*/whole);
-  if (!whole) {
-    ReportDamage(absl::StrCat(file_.path(), " ends too early; what lies behind byte ", offset,
-                              " of ", file_.size(), " is not read"));
-  }
-  SortTopics();
+  EndScan(whole, offset);
   return absl::OkStatus();
 }
 
@@ -219,9 +214,7 @@ absl::StatusOr<std::string> McapReader::Read(const MessagePlace& place) {
     HOMING_ASSIGN_OR_RETURN(from_file, file_.Read(offset, kHeadBytes + size));
     bytes = from_file;
   } else {
-    HOMING_ASSIGN_OR_RETURN(bytes, Chunk(static_cast<std::uint64_t>(place.chunk)));
-    if (offset > bytes.size()) return absl::DataLossError("the index points behind its chunk");
-    bytes.remove_prefix(offset);
+    HOMING_ASSIGN_OR_RETURN(bytes, BytesInChunk(place));
   }
   ByteReader reader(bytes);
   const auto opcode = reader.Take<std::uint8_t>();

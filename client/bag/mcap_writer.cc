@@ -41,7 +41,7 @@ class McapFields {
   std::string bytes_;
 };
 
-// With the files that it imports, each behind those that it needs.
+// Adds the file and those that it imports, each after its own imports.
 void AddFile(const google::protobuf::FileDescriptor* file, std::set<std::string>* known,
              google::protobuf::FileDescriptorSet* files) {
   if (!known->insert(file->name()).second) return;
@@ -52,7 +52,8 @@ void AddFile(const google::protobuf::FileDescriptor* file, std::set<std::string>
 std::string CompressZstd(const std::string& bytes) {
   std::string out(ZSTD_compressBound(bytes.size()), '\0');
   const std::size_t size = ZSTD_compress(out.data(), out.size(), bytes.data(), bytes.size(), 1);
-  // Fails only without memory; an empty chunk is then noticed by its checksum.
+  // Compression fails only when memory runs out; readers then detect the empty chunk by its
+  // checksum.
   out.resize(ZSTD_isError(size) != 0U ? 0 : size);
   return out;
 }

@@ -16,14 +16,14 @@
 
 namespace homing::client::bag {
 
-// Chunks of about a megabyte, compressed by zstd and indexed. What was written before a crash can
-// be read, but for the last chunk. Not thread-safe.
+// Chunks of about a megabyte, compressed by zstd and indexed. After a crash all but the last chunk
+// can be read. Not thread-safe.
 class McapWriter {
  public:
   // REQUIRES: `file` outlives the writer.
   explicit McapWriter(std::ostream* file);
 
-  // The messages' type is written into the file with all that it needs.
+  // Also writes the definition of the messages' type, with the types that it uses.
   std::uint16_t AddChannel(const std::string& topic, const google::protobuf::Descriptor* type);
   // RESOURCE_EXHAUSTED: cannot write.
   absl::Status Write(std::uint16_t channel, std::int64_t time_ns,
@@ -46,7 +46,7 @@ class McapWriter {
 
   std::ostream* file_;
   std::uint64_t offset_ = 0;
-  // Records, as they stand in the chunk and again in the summary.
+  // Records that are written both into the chunk and into the summary.
   std::string schemas_;
   std::string channels_;
   std::string chunk_indexes_;

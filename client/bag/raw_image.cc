@@ -60,7 +60,7 @@ absl::StatusOr<Encoding> FindEncoding(std::string_view name) {
     absl::StrAppend(&names, names.empty() ? "" : ", ", known.name);
   }
   return absl::InvalidArgumentError(
-      absl::StrCat("the image's encoding \"", std::string(name), "\" is none of ", names));
+      absl::StrCat("the image's encoding \"", std::string(name), "\" is not one of ", names));
 }
 
 absl::Status CheckSize(const RawImage& image, const Encoding& encoding) {

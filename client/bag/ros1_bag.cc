@@ -21,7 +21,7 @@ constexpr std::uint8_t kConnection = 0x07;
 
 constexpr std::uint64_t kMaxHeaderBytes = 1 << 20;
 
-// NAME=VALUE pairs, each behind its length; views of the record's header.
+// NAME=VALUE pairs, each after its length; views of the record's header.
 class Fields {
  public:
   explicit Fields(std::string_view header) {
@@ -143,7 +143,7 @@ absl::StatusOr<std::string> Ros1Bag::LoadChunk(std::uint64_t offset) {
   const std::uint64_t size = fields.As<std::uint32_t>("size");
   if (size > limits_.max_chunk || head.data_size > limits_.max_chunk) {
     return absl::ResourceExhaustedError(absl::StrCat("it has ", std::max(size, head.data_size),
-                                                     " bytes; most is ", limits_.max_chunk));
+                                                     " bytes; the limit is ", limits_.max_chunk));
   }
   HOMING_ASSIGN_OR_RETURN(const std::string bytes, file_.Read(head.data_offset, head.data_size));
   return Decompress(fields.Text("compression"), bytes, size);
@@ -184,19 +184,11 @@ absl::Status Ros1Bag::Scan() {
   while (offset < file_.size()) {
     const auto head = ReadHead(offset);
     if (!head.ok()) break;
-    if (const absl::Status status = TakeRecord(*head, offset); !status.ok()) {
-      ReportDamage(absl::StrCat(file_.path(), ": the record at byte ", offset,
-                                " is damaged: ", std::string(status.message())));
-    }
+    CheckPart("record", offset, TakeRecord(*head, offset));
     offset = head->data_offset + head->data_size;
   }
-  const bool whole = offset >= file_.size();
   EndChunk(/*complete=*/false);
-  if (!whole) {
-    ReportDamage(absl::StrCat(file_.path(), " ends too early; what lies behind byte ", offset,
-                              " of ", file_.size(), " is not read"));
-  }
-  SortTopics();
+  EndScan(/*whole=*/offset >= file_.size(), offset);
   return absl::OkStatus();
 }
 
@@ -207,9 +199,8 @@ absl::StatusOr<std::string> Ros1Bag::Read(const MessagePlace& place) {
     if (head.data_size > limits_.max_chunk) return absl::DataLossError("the message is too large");
     return file_.Read(head.data_offset, head.data_size);
   }
-  HOMING_ASSIGN_OR_RETURN(std::string_view records, Chunk(static_cast<std::uint64_t>(place.chunk)));
-  if (offset > records.size()) return absl::DataLossError("the index points behind its chunk");
-  ByteReader reader(records.substr(offset));
+  HOMING_ASSIGN_OR_RETURN(const std::string_view bytes, BytesInChunk(place));
+  ByteReader reader(bytes);
   const Fields fields(reader.Text());
   const std::string_view data = reader.Text();
   if (!reader.ok() || fields.As<std::uint8_t>("op") != kMessageData ||

@@ -13,7 +13,7 @@
 namespace homing::client::bag {
 
 // As ByteReader: a read beyond the end gives 0 or empty, and ok() is then false. Does not own the
-// bytes.
+// bytes. Not thread-safe.
 class RosReader {
  public:
   RosReader(Wire wire, std::string_view bytes)
@@ -33,7 +33,7 @@ class RosReader {
   }
   std::string_view Text() {
     std::string_view text = Bytes();
-    // Counted by CDR.
+    // CDR counts the terminating zero.
     if (cdr_ && !text.empty() && text.back() == '\0') text.remove_suffix(1);
     return text;
   }

@@ -22,7 +22,7 @@ class Rosbag2Database : public Bag {
   Rosbag2Database(const std::string& path, const BagLimits& limits)
       : path_(path), limits_(limits), database_(path, SQLite::OPEN_READONLY) {
     sqlite3_limit(database_.getHandle(), SQLITE_LIMIT_LENGTH, static_cast<int>(limits.max_chunk));
-    // The file is somebody else's: what it declares runs nothing.
+    // The file is foreign: its triggers and views must not run functions.
     database_.exec("PRAGMA trusted_schema = OFF; PRAGMA cell_size_check = ON");
   }
 
@@ -30,9 +30,9 @@ class Rosbag2Database : public Bag {
   absl::StatusOr<std::string> Read(const MessagePlace& place) override;
 
  private:
-  // A view could compute for ever.
+  // False for a view, whose query could run for ever.
   bool IsTable(const std::string& name);
-  // SQLite fills a page that the file does not have in full with zeros.
+  // Reports a file that ends within a page: SQLite would fill the page with zeros.
   absl::Status CheckPages();
   void ScanTopics();
   void ScanMessages();

@@ -20,7 +20,7 @@ bool IsImage(const BagTopic& topic) {
          !absl::EndsWith(topic.name, "/compressedDepth");
 }
 
-// Of the same camera as another topic that is there.
+// True if the topic shows the same camera as another topic of the bag.
 bool IsTwin(const BagTopic& topic, const std::vector<BagTopic>& topics) {
   return absl::EndsWith(topic.name, kCompressed) &&
          std::any_of(topics.begin(), topics.end(), [&](const BagTopic& other) {
@@ -40,7 +40,7 @@ std::string Line(const BagTopic& topic) {
   const std::size_t count = topic.messages.size();
   std::string rate;
   if (count > 1) {
-    // Damaged times may lie further apart than an integer holds.
+    // In double: the difference of damaged times may not fit into an integer.
     const double seconds = 1e-9 * (static_cast<double>(topic.messages.back().time_ns) -
                                    static_cast<double>(topic.messages.front().time_ns));
     if (seconds > 0) rate = absl::StrFormat(", %.1f Hz", static_cast<double>(count - 1) / seconds);

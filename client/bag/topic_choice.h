@@ -1,4 +1,4 @@
-// Which topic of a bag is a camera's.
+// Chooses the topics of a camera in a bag.
 #ifndef CLIENT_BAG_TOPIC_CHOICE_H_
 #define CLIENT_BAG_TOPIC_CHOICE_H_
 
@@ -20,7 +20,7 @@ absl::StatusOr<const BagTopic*> ChooseImageTopic(const std::vector<BagTopic>& to
 // The camera_info topic beside an image topic, else nullptr.
 const BagTopic* FindCameraInfo(const std::vector<BagTopic>& topics, const BagTopic& image);
 
-// Images without distortion, by the names that ROS gives them: image_rect, image_rect_color.
+// True for images without distortion, by the names in ROS: image_rect, image_rect_color.
 bool IsRectified(const BagTopic& image);
 
 }  // namespace homing::client::bag

@@ -62,7 +62,7 @@ absl::Status Bench(const Session& session, const LoadOptions& options) {
 
 void AddBenchFlags(CLI::App& app, Session& session) {
   auto flags = std::make_shared<LoadOptions>();
-  app.add_option("--robots", flags->robots, "Robots, each on a connection of its own")
+  app.add_option("--robots", flags->robots, "Robots, each on its own connection")
       ->capture_default_str();
   app.add_option("--rate", flags->rate, "Observations a second of each robot")
       ->capture_default_str();

@@ -18,7 +18,7 @@
 
 namespace homing::client {
 
-// For one thread. Only Open blocks.
+// Not thread-safe. Only Open blocks.
 class Http2Call {
  public:
   using OnMessage = std::function<void(std::string_view message)>;

@@ -12,7 +12,7 @@
 
 namespace homing::client {
 
-// Copies share their TLS settings.
+// Copies share their TLS settings. Immutable.
 class Http2Endpoint {
  public:
   // INVALID_ARGUMENT: no "host:port"; files as Connection::Open.

@@ -170,8 +170,8 @@ class Drive {
   }
 
  private:
-  // Polls every half millisecond instead of waking up for each answer: the processor is the
-  // server's.
+  // Polls every half millisecond instead of waking up for each answer, to leave the processor to
+  // the server.
   void Tick() {
     std::this_thread::sleep_for(std::chrono::microseconds(500));
     std::array<epoll_event, 256> events{};

@@ -9,7 +9,7 @@
 
 namespace homing::client {
 
-// The observations of one route, made once and sent repeatedly.
+// The observations of one route, made once and sent repeatedly. Immutable.
 class LoadScene {
  public:
   // Flow vectors of the left camera on a simulated street. Each route is another street; each drive

@@ -12,7 +12,7 @@
 namespace homing::client {
 
 // Both sides of a street: façades with corners, posts before them, far objects behind. All routes
-// take their façades from one pool of eight patterns of corners.
+// take their façades from one pool of eight patterns of corners. Immutable.
 class ProjectedWorld {
  public:
   ProjectedWorld(std::uint64_t seed, double length_m);
@@ -57,7 +57,7 @@ struct ProjectedDriveOptions {
   double removed = 0.1;
 };
 
-// Equal options give equal instants. Cameras of 320 x 240, focal length 277 px.
+// Equal options give equal instants. Cameras of 320 x 240, focal length 277 px. Immutable.
 class ProjectedDrive {
  public:
   ProjectedDrive(const ProjectedWorld* world, const ProjectedDriveOptions& options);

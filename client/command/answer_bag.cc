@@ -1,10 +1,10 @@
 #include "client/command/answer_bag.h"
 
-#include <chrono>
 #include <utility>
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
+#include "absl/time/clock.h"
 #include "client/command/growing_file.h"
 #include "client/command/json_line.h"
 #include "homing/base/status_macros.h"
@@ -107,8 +107,6 @@ std::string InWords(const v1::LocalizeResponse& answer) {
   return text;
 }
 
-std::string CameraName(std::size_t camera) { return camera == 0 ? "left" : "right"; }
-
 }  // namespace
 
 class WatchedObservations : public ObservationStream {
@@ -139,9 +137,7 @@ AnswerBag::AnswerBag(std::ofstream file, const FlowOptions& flow)
       writer_(&file_),
       flow_options_(flow),
       flow_(flow),
-      start_ns_(std::chrono::duration_cast<std::chrono::nanoseconds>(
-                    std::chrono::system_clock::now().time_since_epoch())
-                    .count()) {}
+      start_ns_(absl::GetCurrentTimeNanos()) {}
 
 absl::StatusOr<std::unique_ptr<AnswerBag>> AnswerBag::Open(const std::string& path,
                                                            const FlowOptions& flow) {
@@ -158,7 +154,7 @@ void AnswerBag::ForgetFlow() {
   flow_ = ObservationFlow(flow_options_);
 }
 
-// An observation that the server refuses is not kept; the server says why.
+// Does not keep an observation that the server will refuse; the server reports the reason.
 void AnswerBag::Keep(const v1::Observation& message) {
   const MutexLock lock(mutex_);
   const auto observation = wire::FromProto(message);
@@ -173,7 +169,7 @@ void AnswerBag::Keep(const v1::Observation& message) {
   for (std::size_t camera = 0; camera < seen.pictures.size(); ++camera) {
     const v1::CameraView& view = camera == 0 ? message.left() : message.right();
     Picture& picture = seen.pictures[camera];
-    if (view.has_frame()) picture.image = ToImage(view.frame(), time, CameraName(camera));
+    if (view.has_frame()) picture.image = ToImage(view.frame(), time, kCameraNames[camera]);
     if (flow->fields[camera]) picture.annotations = Annotate(*flow->fields[camera], time);
   }
 }
@@ -189,7 +185,7 @@ absl::Status AnswerBag::WritePictures(const v1::LocalizeResponse& answer, Seen s
   const auto time = wire::TimestampToProto(seen.time_ns);
   for (std::size_t camera = 0; camera < seen.pictures.size(); ++camera) {
     Picture& picture = seen.pictures[camera];
-    const std::string topic = absl::StrCat("/homing/", CameraName(camera));
+    const std::string topic = absl::StrCat("/homing/", kCameraNames[camera]);
     if (picture.image != nullptr) {
       // A camera whose frames change their kind has a topic for each.
       const bool raw = picture.image->GetDescriptor() == foxglove::RawImage::descriptor();

@@ -1,5 +1,4 @@
-// What a robot saw and what it was answered, as an MCAP file for Foxglove's panels. Source: own
-// design.
+// The observations of a robot and the answers to them, as an MCAP file for Foxglove's panels.
 #ifndef CLIENT_COMMAND_ANSWER_BAG_H_
 #define CLIENT_COMMAND_ANSWER_BAG_H_
 
@@ -30,8 +29,8 @@ class AnswerBag {
   static absl::StatusOr<std::unique_ptr<AnswerBag>> Open(const std::string& path,
                                                          const FlowOptions& flow);
 
-  // The same observations; what they show is kept until their answer. REQUIRES: `inner` and the bag
-  // outlive the result.
+  // Passes on the same observations, and keeps their images and flow until their answers. REQUIRES:
+  // `inner` and the bag outlive the result.
   std::unique_ptr<ObservationStream> Watch(ObservationStream* inner);
 
   // RESOURCE_EXHAUSTED.
@@ -40,7 +39,7 @@ class AnswerBag {
 
  private:
   friend class WatchedObservations;
-  // What one camera showed at one instant.
+  // The image and flow of one camera at one instant.
   struct Picture {
     std::unique_ptr<google::protobuf::Message> image;
     std::optional<foxglove::ImageAnnotations> annotations;
@@ -63,7 +62,7 @@ class AnswerBag {
   std::map<std::string, std::uint16_t> channels_ HOMING_GUARDED_BY(mutex_);
   FlowOptions flow_options_;
   ObservationFlow flow_ HOMING_GUARDED_BY(mutex_);
-  // Of observations without a time: a tenth of a second each, from now on.
+  // Start time of observations without a time, which count as a tenth of a second apart.
   std::int64_t start_ns_;
   // Not answered yet.
   std::map<std::int64_t, Seen> seen_ HOMING_GUARDED_BY(mutex_);

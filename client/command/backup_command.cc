@@ -26,8 +26,7 @@ absl::Status BackUp(const Session& session, const std::string& path) {
 }  // namespace
 
 void AddBackupCommand(CLI::App& app, Session& session) {
-  CLI::App& command =
-      *app.add_subcommand("backup", "A copy of the server's whole database, to one file");
+  CLI::App& command = *app.add_subcommand("backup", "Copy the server's whole database to one file");
   auto path = std::make_shared<std::string>();
   command.add_option("file,--out", *path, "FILE to write, - for stdout")->required();
   command.callback(

@@ -119,7 +119,7 @@ HomeDriveOptions OptionsOf(const DriveFlags& flags, const SimulationSpec& home) 
   options.start_heading = flags.start_heading_deg * kDegree;
   options.delay_s = flags.delay_ms / 1000;
   options.lost = flags.lost;
-  // It gives up after five times the time that the way needs.
+  // The robot gives up after five times the time that the way needs.
   options.most_s = 60 + 5 * home.length_m / options.pilot.most_speed_mps;
   return options;
 }
@@ -142,7 +142,7 @@ absl::Status Drive(const Session& session, const DriveFlags& flags) {
     return ToPilotAnswer(answer, 0);
   };
   HOMING_ASSIGN_OR_RETURN(const HomeDrive drive, DriveHome(options, cameras->route(), &eyes, ask));
-  return TellDrive(session, drive, cameras->route(), options.pilot.route_m, flags.folder);
+  return ReportDrive(session, drive, cameras->route(), options.pilot.route_m, flags.folder);
 }
 
 }  // namespace
@@ -160,28 +160,31 @@ void AddDriveCommand(CLI::App& app, Session& session) {
         return std::string(ParseSimulationSpec(absl::StrCat("sim:", text)).status().message());
       });
   command.add_option("--home", flags->home_keys,
-                     "Keys that are new on the way home, key=value[,key=value...]: light, noise, "
+                     "Keys that differ on the way home, key=value[,key=value...]: light, noise, "
                      "remove, drive");
   AddTravelFlag(command, flags->travel);
   command.add_option("--out", flags->folder, "DIR to write drive.png and drive.csv to");
-  command.add_option("--start-left", flags->start_left_m, "Starts so far left of the path, metres")
+  command
+      .add_option("--start-left", flags->start_left_m,
+                  "Start position to the left of the path, metres")
       ->check(CLI::Range(-2.0, 2.0))
       ->capture_default_str();
   command
       .add_option("--start-heading", flags->start_heading_deg,
-                  "Starts turned to the left by so much, degrees")
+                  "Start heading to the left of the path, degrees")
       ->check(CLI::Range(-45.0, 45.0))
       ->capture_default_str();
-  command.add_option("--slip", flags->slip, "Most that a wheel slips, a share")
+  command.add_option("--slip", flags->slip, "Greatest slip of a wheel, as a fraction")
       ->check(CLI::Range(0.0, 0.5))
       ->capture_default_str();
   command.add_option("--delay", flags->delay_ms, "Delay of the answers, ms")
       ->check(CLI::Range(0.0, 2000.0))
       ->capture_default_str();
-  command.add_option("--lost", flags->lost, "Share of the answers that is lost")
+  command.add_option("--lost", flags->lost, "Fraction of the answers that are lost")
       ->check(CLI::Range(0.0, 1.0))
       ->capture_default_str();
-  command.add_option("--seed", flags->seed, "Of slip, noise and losses")->capture_default_str();
+  command.add_option("--seed", flags->seed, "Seed of slip, noise and losses")
+      ->capture_default_str();
   command.callback(
       [flags, &session] { session.run = [flags, &session] { return Drive(session, *flags); }; });
 }

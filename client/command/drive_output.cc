@@ -122,8 +122,8 @@ absl::Status WriteFiles(const HomeDrive& drive, const DrivePicture& picture,
 
 }  // namespace
 
-absl::Status TellDrive(const Session& session, const HomeDrive& drive, const Route& route,
-                       double route_m, const std::string& folder) {
+absl::Status ReportDrive(const Session& session, const HomeDrive& drive, const Route& route,
+                         double route_m, const std::string& folder) {
   const Figures figures = FiguresOf(drive, route);
   const bool came_home = drive.stopped && figures.end_m <= kAtHomeM;
   const std::string verdict = absl::StrFormat(

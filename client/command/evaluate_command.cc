@@ -45,7 +45,7 @@ std::string Metres(const std::optional<double>& metres) {
   return metres ? absl::StrFormat("%.1f m", *metres) : "-";
 }
 
-// Without the truth: the believed step, and how far home it is.
+// Without the truth: the believed step, and the progress home.
 std::string PlaceRow(const EvaluatedPlace& place, bool judged) {
   const LocalizedAnswer& answer = place.answer;
   const std::string where =

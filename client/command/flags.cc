@@ -21,7 +21,7 @@ namespace {
 
 constexpr char kCameraForm[] = "fx,fy,cx,cy[,k1,k2,p1,p2,k3][,yaw=RAD] or FILE[#CAMERA][,yaw=RAD]";
 
-// CLI11 expects an error text, empty if the value is valid.
+// Converts a status to CLI11's form: an error text, empty if the value is valid.
 std::string Explain(const absl::Status& status) { return std::string(status.message()); }
 
 absl::Status BadCamera(const std::string& text) { return TextMustBe("camera", text, kCameraForm); }
@@ -46,11 +46,11 @@ void AddFrameChoice(CLI::App& command, FrameChoice& frames) {
       ->capture_default_str();
   command
       .add_option("--fps", frames.fps,
-                  "Take at most so many frames a second, by the times of the source [all]")
+                  "Take at most this many frames a second, by the times of the source [all]")
       ->check(CLI::Range(1e-3, 1e4));
   command
       .add_option("--seconds", frames.seconds,
-                  "End after so many seconds of the source [at its end]")
+                  "End after this many seconds of the source [at its end]")
       ->check(CLI::Range(1e-3, 1e9));
   command.add_flag("--strict", frames.strict,
                    "End at a bad frame (empty, damaged, of another size) instead of skipping and "
@@ -144,7 +144,7 @@ std::optional<v1::Camera> CameraOf(const RobotFlags& flags, const Cameras& camer
   if (!(left ? flags.left_camera : flags.right_camera).empty()) {
     v1::Camera given = left ? flags.left_intrinsics() : flags.right_intrinsics();
     const auto camera = wire::FromProto(given, left ? "left_camera" : "right_camera");
-    // The server says what is wrong with it.
+    // The server reports the error in it.
     if (!camera.ok()) return given;
     return wire::ToProto(CropCamera(*camera, WindowOf(flags, side)));
   }

@@ -83,8 +83,9 @@ absl::Status ShowAliasingTable(const Session& session, const v1::AnalyzeAliasing
       StepsOrMore(report.has_median_steps(), report.median_steps()),
       StepsOrMore(report.has_most_steps(), report.most_steps()))));
   if (report.indistinct_share() > 0) {
-    HOMING_RETURN_IF_ERROR(session.Print(absl::StrFormat(
-        "%.1f %% of the places cannot be told from others.", 100 * report.indistinct_share())));
+    HOMING_RETURN_IF_ERROR(
+        session.Print(absl::StrFormat("%.1f %% of the places cannot be distinguished from others.",
+                                      100 * report.indistinct_share())));
   }
   if (report.twins().empty()) return session.Print("No two places look alike.");
   HOMING_RETURN_IF_ERROR(
@@ -217,38 +218,39 @@ void AddName(CLI::App& command, JourneysFlags& flags) {
 
 void AddJourneysCommand(CLI::App& app, Session& session) {
   CLI::App& command =
-      *app.add_subcommand("journeys", "The maps: list, show, finish, delete, carry");
+      *app.add_subcommand("journeys", "List, show, finish, delete, export and import journeys");
   command.require_subcommand(1);
   auto flags = std::make_shared<JourneysFlags>();
-  AddAction(command, session, flags, "list", "All journeys, or those of one robot", List)
+  AddAction(command, session, flags, "list", "List all journeys, or those of one robot", List)
       .add_option("parent,--robot", flags->parent, "robots/ROBOT, or robots/- for all")
       ->capture_default_str();
   CLI::App& show =
-      AddAction(command, session, flags, "show", "One journey and its landmarks", Show);
+      AddAction(command, session, flags, "show", "Show one journey and its landmarks", Show);
   AddName(show, *flags);
   show.add_flag("--aliasing", flags->aliasing,
                 "Instead: how many steps a robot must see to know its place, and which places look "
                 "alike");
-  show.add_option("--tolerance", flags->tolerance, "Nearer steps are one place")
+  show.add_option("--tolerance", flags->tolerance, "Steps nearer than this count as one place")
       ->check(CLI::Range(0, 100000))
       ->capture_default_str()
       ->needs("--aliasing");
   CLI::App& finish = AddAction(command, session, flags, "finish",
-                               "Close a journey whose recording ended without it", Finish);
+                               "Close a journey whose recording was interrupted", Finish);
   AddName(finish, *flags);
   finish.add_flag("--force", flags->force, "Even while a stream still records it");
-  CLI::App& set_readers =
-      AddAction(command, session, flags, "set-readers",
-                "Who may read a journey besides its robot; without names, nobody", SetReaders);
+  CLI::App& set_readers = AddAction(
+      command, session, flags, "set-readers",
+      "Set the robots that may read a journey besides its own; without names: none", SetReaders);
   AddName(set_readers, *flags);
   set_readers.add_option("readers,--reader", flags->readers, "robots/ROBOT..., or * for all");
   AddName(AddAction(command, session, flags, "delete", "Delete a journey with its map", Delete),
           *flags);
-  CLI::App& to_file = AddAction(command, session, flags, "export", "A map to one file", Export);
+  CLI::App& to_file =
+      AddAction(command, session, flags, "export", "Export a map to one file", Export);
   AddName(to_file, *flags);
   to_file.add_option("file,--out", flags->file, "FILE to write, - for stdout")->required();
-  CLI::App& from_file =
-      AddAction(command, session, flags, "import", "A map from one file, under a new name", Import);
+  CLI::App& from_file = AddAction(command, session, flags, "import",
+                                  "Import a map from one file, under a new name", Import);
   AddName(from_file, *flags);
   from_file.add_option("file,--in", flags->file, "FILE to read")->required();
 }

@@ -30,7 +30,7 @@ Json ToJson(const v1::RecordJourneyResponse& answer);
 Json ToJson(const v1::LocalizeResponse& answer);
 Json ToJson(const v1::MatchLandmarksResponse& answer);
 Json ToJson(const v1::Match& match);
-// Without settings.
+// The journey without its settings.
 Json ToJson(const v1::Journey& journey);
 Json ToJson(const v1::JourneySettings& settings);
 Json ToJson(const v1::Landmark& landmark);

@@ -74,7 +74,7 @@ std::string AnswerRow(const v1::LocalizeResponse& answer) {
       or_dash(answer.has_similarity(), absl::StrFormat("%.2f", answer.similarity())));
 }
 
-// Answers go to stdout, and to the files that were asked for.
+// Writes the answers to stdout, and to the requested files.
 class AnswerOutputs {
  public:
   AnswerOutputs(const Session& session, const LocalizeFlags& flags)
@@ -144,7 +144,7 @@ absl::Status Localize(const Session& session, const LocalizeFlags& flags) {
       client.Localize(options, watched ? watched.get() : &observations, on_answer,
                       sources->live() ? std::stop_token() : session.stop);
   sources->ReportTotal();
-  // After an error too: the answers so far can be looked at.
+  // Also after an error, so that the answers so far can be viewed.
   const absl::Status finished = outputs.Finish();
   HOMING_RETURN_IF_ERROR(status);
   HOMING_RETURN_IF_ERROR(finished);
@@ -157,8 +157,8 @@ absl::Status Localize(const Session& session, const LocalizeFlags& flags) {
 }  // namespace
 
 void AddLocalizeCommand(CLI::App& app, Session& session) {
-  CLI::App& command =
-      *app.add_subcommand("localize", "Stream what the robot sees; one answer an observation");
+  CLI::App& command = *app.add_subcommand(
+      "localize", "Stream a robot's frames or flow; each observation gets one answer");
   auto flags = std::make_shared<LocalizeFlags>();
   AddJourneyFlag(command, flags->journey, /*wildcards=*/true);
   AddRobotFlags(command, flags->robot);

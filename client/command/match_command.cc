@@ -62,7 +62,7 @@ absl::Status RunMatch(const Session& session, const MatchFlags& flags) {
 
 void AddMatchCommand(CLI::App& app, Session& session) {
   CLI::App& command =
-      *app.add_subcommand("match", "Which stored landmarks resemble these two frames?");
+      *app.add_subcommand("match", "Find the stored landmarks that resemble those in two frames");
   auto flags = std::make_shared<MatchFlags>();
   AddJourneyFlag(command, flags->journey, /*wildcards=*/true);
   command.add_option("--left", flags->left, "FIRST,SECOND: consecutive frames of the left camera")

@@ -34,7 +34,7 @@ void StopAtSignal(const std::stop_source& source) {
   }).detach();
 }
 
-// Whether the surplus arguments are files, as after a glob that the shell resolved.
+// True if the surplus arguments are files, as after the shell has expanded a glob.
 bool NamesFiles(const CLI::App& app) {
   const std::vector<std::string> rest = app.remaining(/*recurse=*/true);
   std::error_code error;

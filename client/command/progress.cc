@@ -27,7 +27,7 @@ Progress::~Progress() {
 
 void Progress::Set(std::int64_t done) {
   const auto now = std::chrono::steady_clock::now();
-  // What was done before, as after a restart, says nothing about the rate.
+  // Items that were done before this run do not count for the rate.
   if (first_ < 0) {
     first_ = done;
     begun_ = now;
@@ -57,7 +57,7 @@ std::string ProgressText(const std::string& title, std::int64_t worked, std::int
   } else {
     absl::StrAppend(&line, done);
   }
-  // Before, the rate is that of the first buffers.
+  // In the first second the rate only reflects how fast buffers fill.
   if (seconds < 1 || worked <= 0) return line;
   const double rate = static_cast<double>(worked) / seconds;
   absl::StrAppendFormat(&line, "  %.1f/s", rate);

@@ -35,7 +35,7 @@ struct Target {
   std::int64_t base = 0;
 };
 
-// What the robot's cameras are, as the flags or the sources say.
+// Models of the robot's cameras, as the flags or the sources give them.
 using CameraModels = std::array<std::optional<v1::Camera>, 2>;
 
 absl::StatusOr<v1::CreateJourneyRequest> MakeCreateRequest(const RecordFlags& flags,
@@ -86,7 +86,7 @@ absl::StatusOr<Target> OpenTarget(JourneyClient& journeys, const RecordFlags& fl
   target.journey = *found;
   target.base = BaseOfMark(found->source_mark(), mark);
   if (target.base <= 0 && !flags.resume) {
-    // The same source: other settings, or another writer.
+    // base is 0: the source is the same, but the settings or the writer differ.
     return target.base == 0 ? created.status() : OtherSource(*found);
   }
   if (target.base <= 0) target.base = found->next_sequence();
@@ -97,8 +97,8 @@ absl::StatusOr<Target> OpenTarget(JourneyClient& journeys, const RecordFlags& fl
 absl::Status NotFinished(const RecordFlags& flags, const absl::Status& status) {
   return absl::Status(status.code(),
                       absl::StrCat(std::string(status.message()), "; ", flags.journey,
-                                   " is not finished: run the same command again to go on where it "
-                                   "stopped, or close it with homing journeys finish"));
+                                   " is not finished: run the same command again to continue where "
+                                   "it stopped, or close it with homing journeys finish"));
 }
 
 absl::Status SendAll(const Session& session, const Connection& connection, const RecordFlags& flags,
@@ -166,16 +166,18 @@ absl::Status Record(const Session& session, const RecordFlags& flags) {
 
 void AddRecordCommand(CLI::App& app, Session& session) {
   CLI::App& command = *app.add_subcommand("record",
-                                          "Record an outbound journey and finish it; run again "
-                                          "with the same source, it goes on where it "
-                                          "stopped");
+                                          "Record an outbound journey and finish it; if it "
+                                          "stops early, run it again with the same source "
+                                          "to continue");
   auto flags = std::make_shared<RecordFlags>();
   flags->writer = DefaultWriter();
   AddJourneyFlag(command, flags->journey, /*wildcards=*/false);
   AddRobotFlags(command, flags->robot);
   command.add_option("--model", flags->model,
                      "Deviation model, deviationModels/MODEL [the built-in default]");
-  command.add_option("--writer", flags->writer, "Who records; the same writer may go on")
+  command
+      .add_option("--writer", flags->writer,
+                  "Id of the recording program; the same id can continue a journey")
       ->capture_default_str();
   command.add_option("--reader", flags->readers, "Robot that may read the journey, * for all");
   command.add_option("--window", flags->window, "Most observations sent and not yet durable")

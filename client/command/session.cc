@@ -16,7 +16,7 @@ namespace {
 std::string AdviceOn(const absl::Status& status) {
   if (!IsFromServer(status)) return "";
   if (absl::IsUnauthenticated(status)) {
-    return "say who this is: --tls-cert and --tls-key, or --token-file";
+    return "give credentials: --tls-cert and --tls-key, or --token-file";
   }
   if (absl::IsPermissionDenied(status)) {
     return "the server's operator can change roles, or list this robot among a journey's readers";
@@ -71,7 +71,7 @@ void AddCommonFlags(CLI::App& app, Session& session) {
       })
       ->envname("HOMING_SERVER");
   app.add_flag("--json", session.json, "One JSON object a line on stdout, nothing else there");
-  app.add_flag("--quiet,-q", session.quiet, "Nothing on stderr but errors");
+  app.add_flag("--quiet,-q", session.quiet, "Print only errors on stderr");
   app.add_option("--tls-ca", connection.tls_ca, "TLS: PEM file of the certificates to trust");
   app.add_option("--tls-cert", connection.tls_cert, "TLS: PEM file of this robot's certificate");
   app.add_option("--tls-key", connection.tls_key, "TLS: PEM file of this robot's key");
@@ -87,7 +87,7 @@ void AddCommonFlags(CLI::App& app, Session& session) {
            connection.retry_for =
                std::chrono::milliseconds(static_cast<std::int64_t>(seconds * 1000));
          },
-         "How long a broken connection is tried again, seconds [60]")
+         "How long to retry a broken connection, seconds [60]")
       ->check(CLI::Range(0.0, 1e6));
 }
 

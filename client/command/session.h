@@ -32,7 +32,7 @@ struct Session {
   absl::StatusOr<Connection> Connect() const;
   // To stderr, unless quiet. Thread-safe.
   void Log(const std::string& text) const;
-  // The choice with what this command reports and stops at.
+  // Adds this command's log and stop signal to the choice.
   FrameChoice WithReports(FrameChoice choice) const;
   // Writes and flushes one line on stdout. FAILED_PRECONDITION: stdout is closed.
   absl::Status PrintJson(const nlohmann::ordered_json& line) const;

@@ -13,11 +13,10 @@
 #include "client/png_file.h"
 #include "client/simulator/simulator.h"
 #include "homing/base/status_macros.h"
+#include "homing/flow/observation.h"
 
 namespace homing::client {
 namespace {
-
-constexpr std::array<const char*, 2> kCameraNames = {"left", "right"};
 
 struct SimulateFlags {
   std::string scene;

@@ -1,7 +1,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <chrono>
 #include <map>
 #include <memory>
 #include <string>
@@ -9,6 +8,8 @@
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
+#include "absl/time/clock.h"
+#include "absl/time/time.h"
 #include "client/command/commands.h"
 #include "client/command/json_line.h"
 #include "client/fleet_client.h"
@@ -34,9 +35,7 @@ const char* WordOf(State state) {
 
 std::string Ago(const v1::Robot& robot) {
   if (!robot.has_last_seen()) return "-";
-  const std::int64_t now = std::chrono::duration_cast<std::chrono::seconds>(
-                               std::chrono::system_clock::now().time_since_epoch())
-                               .count();
+  const std::int64_t now = absl::ToUnixSeconds(absl::Now());
   return absl::StrCat(std::max<std::int64_t>(0, now - robot.last_seen().seconds()), " s");
 }
 
@@ -99,7 +98,7 @@ absl::Status Follow(const Session& session) {
         std::vector<v1::Robot> all;
         all.reserve(robots.size());
         for (const auto& [name, robot] : robots) all.push_back(robot);
-        // Home, and clear what is below: the table is drawn over the one before.
+        // Cursor home, then clear below: the table replaces the previous one.
         HOMING_RETURN_IF_ERROR(session.Print("\x1b[H\x1b[J"));
         return PrintRobots(session, std::move(all));
       });
@@ -109,8 +108,8 @@ absl::Status Follow(const Session& session) {
 }  // namespace
 
 void AddTopCommand(CLI::App& app, Session& session) {
-  CLI::App& command =
-      *app.add_subcommand("top", "The robots and what they do, lost ones first, as it changes");
+  CLI::App& command = *app.add_subcommand(
+      "top", "Show the robots and their activity, lost ones first, as it changes");
   auto once = std::make_shared<bool>(false);
   command.add_flag("--once", *once, "Print the present state and end, as into a pipe");
   command.callback([once, &session] {

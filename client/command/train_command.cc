@@ -10,6 +10,7 @@
 #include "client/model_client.h"
 #include "client/picture/deviation_picture.h"
 #include "homing/base/status_macros.h"
+#include "proto/wire/settings_conversion.h"
 
 namespace homing::client {
 namespace {
@@ -54,11 +55,7 @@ absl::Status PlotTraining(const std::string& folder,
                           const v1::TrainDeviationModelResponse& trained) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
-  DeviationModel model;
-  model.mu = trained.model().mu();
-  model.sigma = trained.model().sigma();
-  model.observations = trained.model().observations();
-  model.ks_distance = trained.model().ks_distance();
+  const DeviationModel model = wire::DeviationOf(trained.model());
   const std::vector<double> deviations(trained.deviations_px().begin(),
                                        trained.deviations_px().end());
   if (deviations.empty()) return absl::InternalError("the server returned no deviations to plot");

@@ -1,5 +1,5 @@
-// A simulated robot drives home by the answers alone: cameras, answers, pilot, wheels, in a closed
-// loop in simulated time.
+// Drives a simulated robot home by the answers alone: cameras, answers, pilot and wheels in a
+// closed loop, in simulated time.
 #ifndef CLIENT_DRIVE_HOME_DRIVE_H_
 #define CLIENT_DRIVE_HOME_DRIVE_H_
 
@@ -22,25 +22,26 @@ struct HomeDriveOptions {
   WheeledRobotOptions robot;
   // Frames a second.
   double fps = 10;
-  // Number of the first frame: another one has other noise.
+  // Number of the first frame; another number gives other noise.
   std::int64_t first_frame = 1'000'000;
-  // Where it starts against the end of the outbound path: metres beyond it and to its left, rad to
-  // the left.
+  // Start relative to the end of the outbound path: metres beyond it and to its left, and heading,
+  // rad to the left.
   double start_ahead_m = 0;
   double start_left_m = 0;
   double start_heading = 0;
-  // Answers come so late, and this share of them not at all; the seed of which.
+  // Delay of the answers, s; the fraction of answers that are lost; and the seed that selects them.
   double delay_s = 0.1;
   double lost = 0;
   std::uint64_t seed = 1;
-  // From this way driven on nothing is answered for so many seconds: what is seen meanwhile is not
-  // sent. Below 0: never.
+  // Distance driven, m, after which the link is lost for outage_s seconds: observations are not
+  // sent meanwhile. Below 0: never.
   double outage_at_m = -1;
   double outage_s = 0;
-  // From this way driven on the robot is carried along the path, towards home. Below 0: never.
+  // Distance driven, m, after which the robot is carried along the path towards home, by carried_m.
+  // Below 0: never.
   double carried_at_m = -1;
   double carried_m = 0;
-  // The pilot is given what is usual instead of turn, offset and speed.
+  // The pilot gets usual values instead of turn, offset and speed.
   bool blindfolded = false;
   // Gives up after this time, s.
   double most_s = 600;
@@ -52,30 +53,30 @@ struct DrivenPoint {
   // Along the outbound path from home, and to the left of it as the outbound robot has it.
   double route_m = 0;
   double left_m = 0;
-  // Of the robot to its left, against its way along the path; rad.
+  // The robot's heading relative to its way along the path, rad to its left.
   double heading = 0;
   Pilot::State state = Pilot::State::kDriving;
   PilotCommand command;
-  // To what it saw here, if it was asked.
+  // The answer to the observation made here, if one was sent.
   std::optional<PilotAnswer> answer;
 };
 
 struct HomeDrive {
   std::vector<DrivenPoint> points;
-  // The pilot stopped at what it took for home.
+  // The pilot stopped because it believed to be at home.
   bool stopped = false;
 
-  // Where it ended, m from home.
+  // Final distance from home, m.
   double EndFromHome(const Route& route) const;
 };
 
-// Answers one observation, numbered from 0 without gaps; `time_s` of the robot's clock is the
-// caller's to fill in.
+// Answers one observation, numbered from 0 without gaps; the caller sets `time_s` by the robot's
+// clock.
 using Answering = std::function<absl::StatusOr<PilotAnswer>(const Observation&)>;
 // Called at the outage: the link breaks.
 using OnOutage = std::function<absl::Status()>;
 
-// As `answering`. The outbound path is the route from 0 to pilot.route_m.
+// Drives home. Errors of `answering`. The outbound path is the route from 0 to pilot.route_m.
 absl::StatusOr<HomeDrive> DriveHome(const HomeDriveOptions& options, const Route& route,
                                     RobotEyes* eyes, const Answering& answering,
                                     const OnOutage& on_outage = {});

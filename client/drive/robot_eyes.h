@@ -1,4 +1,4 @@
-// What a simulated robot sends of what it sees.
+// The observations of a simulated robot.
 #ifndef CLIENT_DRIVE_ROBOT_EYES_H_
 #define CLIENT_DRIVE_ROBOT_EYES_H_
 
@@ -15,7 +15,7 @@ namespace homing::client {
 class RobotEyes {
  public:
   virtual ~RobotEyes() = default;
-  // What the robot sees at a pose; the views live until the next call. `frame` numbers the noise.
+  // The observation at a pose; its views live until the next call. `frame` numbers the noise.
   virtual Observation See(const Pose& robot, std::int64_t frame) = 0;
 };
 

@@ -21,8 +21,8 @@ constexpr std::chrono::milliseconds kReaderCheck{50};
 
 using Write = std::function<absl::Status(std::ostream&)>;
 
-// Until `file` is closed; the system's reason if that fails.
-// `name`: of the file that the user knows.
+// Writes and closes the file. Errors of the system; they contain `name`, the file as the user named
+// it.
 absl::Status WriteTo(const std::string& path, const std::string& name, const Write& write) {
   errno = 0;
   std::ofstream file(path, std::ios::binary | std::ios::trunc);
@@ -34,7 +34,7 @@ absl::Status WriteTo(const std::string& path, const std::string& name, const Wri
   return status;
 }
 
-// Beside the file and renamed, so that the file is whole or as it was.
+// Writes beside the file and renames, so that the file is either complete or unchanged.
 absl::Status Replace(const fs::path& path, const fs::file_status& before, const Write& write) {
   const std::string part = path.string() + ".part";
   absl::Status status = WriteTo(part, path.string(), write);
@@ -47,7 +47,7 @@ absl::Status Replace(const fs::path& path, const fs::file_status& before, const 
   return status;
 }
 
-// Opening a pipe that nobody reads would block, whatever signal comes.
+// Opening a pipe without a reader would block, even when a signal arrives.
 absl::Status AwaitReader(const std::string& path, const std::stop_token& stop) {
   while (!stop.stop_requested()) {
     const int pipe = ::open(path.c_str(), O_WRONLY | O_NONBLOCK | O_CLOEXEC);
@@ -61,7 +61,7 @@ absl::Status AwaitReader(const std::string& path, const std::stop_token& stop) {
   return absl::CancelledError(absl::StrCat("stopped; nobody reads ", path));
 }
 
-// The administrator could write it all the same, but was not meant to.
+// The administrator could write to it, but its permissions forbid this.
 bool IsReadOnly(const fs::file_status& file) {
   constexpr fs::perms kWritable =
       fs::perms::owner_write | fs::perms::group_write | fs::perms::others_write;
@@ -79,7 +79,7 @@ absl::Status CheckWritable(const std::string& path) {
   const fs::file_status before = fs::status(path, error);
   if (IsReadOnly(before)) return CannotWrite(path, EACCES);
   if (fs::is_directory(before)) return CannotWrite(path, EISDIR);
-  // Opening and closing a pipe would end its reader.
+  // Opening and closing a pipe would end its reader's input.
   if (fs::exists(before) && !fs::is_regular_file(before)) return absl::OkStatus();
   errno = 0;
   const std::ofstream file(path, std::ios::binary | std::ios::app);
@@ -89,7 +89,7 @@ absl::Status CheckWritable(const std::string& path) {
 absl::StatusOr<std::uintmax_t> WriteOutputFile(const std::string& path, const Write& write,
                                                const std::stop_token& stop) {
   std::error_code error;
-  // A link stays a link: what it leads to is replaced.
+  // A link stays a link: its target is replaced.
   fs::path target = fs::is_symlink(fs::symlink_status(path, error))
                         ? fs::weakly_canonical(path, error)
                         : fs::path(path);

@@ -15,7 +15,7 @@ namespace homing::client {
 // "cannot write PATH: REASON", with the code of the system's error.
 absl::Status CannotWrite(const std::string& path, int error);
 
-// OK: the file can be written. For a check before the work begins; creates a missing file.
+// OK: the file can be written. Call it before the work begins; it creates a missing file.
 absl::Status CheckWritable(const std::string& path);
 
 // Creates or replaces `path` with the output of `write`; returns its size in bytes. A plain file is

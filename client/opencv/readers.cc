@@ -1,3 +1,4 @@
+// The entry of the module that client/source/opencv_readers.h loads.
 #include "client/source/opencv_readers.h"
 
 #include <opencv2/imgcodecs.hpp>

@@ -1,7 +1,6 @@
 #include "client/opencv/video_source.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -13,34 +12,29 @@
 
 #include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
+#include "absl/time/clock.h"
 #include "homing/base/status_macros.h"
 
 namespace homing::client {
 
 namespace {
 
-// FFmpeg draws a text file as a video of letters, and takes a single image for one. These are its
-// names of what holds moving pictures; the rest is its own default.
+// Excludes formats that are no videos: FFmpeg renders a text file as a video, and accepts a single
+// image. The list has its names of video formats; the rest is its default.
 constexpr char kFfmpegOptions[] =
     "rtsp_transport;tcp|format_whitelist;mov,mp4,m4a,3gp,3g2,mj2,avi,matroska,webm,mpegts,mpeg,"
     "mpegvideo,m4v,h261,h263,h264,hevc,av1,obu,ivf,vc1,dirac,flv,asf,ogg,mjpeg,mjpeg_2000,mpjpeg,"
     "mxf,nut,yuv4mpegpipe,dv,rm,wtv,nsv,gif,apng,rtsp,rtp,sdp,hls,dash";
-// A stream is looked at for a second, not for five, before its first frame.
+// FFmpeg analyses a stream for one second, not five, before the first frame.
 constexpr char kLiveOptions[] = "|analyzeduration;1000000";
 constexpr char kNoLines[] = "-8";
-// How often a read is tried again where frames are due: a damaged part fails once or twice.
+// Attempts to read while frames are expected: a damaged part fails once or twice.
 constexpr int kAttempts = 64;
-// Time between two frames of a file that says that some are missing.
+// Time between two frames of a file from which on some are missing.
 constexpr double kJumpMs = 500;
 constexpr double kJumpFrames = 5;
 
-std::int64_t NowNanoseconds() {
-  return std::chrono::duration_cast<std::chrono::nanoseconds>(
-             std::chrono::system_clock::now().time_since_epoch())
-      .count();
-}
-
-// An address without the name and password in it: texts end up in logs.
+// An address without its user name and password, because messages end up in logs.
 std::string Shown(const std::string& path) {
   const std::size_t scheme = path.find("://");
   const std::size_t at = scheme == std::string::npos ? scheme : path.find('@', scheme);
@@ -99,7 +93,7 @@ class VideoSource : public FrameSource {
     }
     SourceFrame frame = ToFrame(image);
     frame.gap_before = std::exchange(gap_, false);
-    if (live_) frame.capture_time_ns = NowNanoseconds();
+    if (live_) frame.capture_time_ns = absl::GetCurrentTimeNanos();
     return std::make_optional(std::move(frame));
   }
 
@@ -164,8 +158,7 @@ class VideoSource : public FrameSource {
     return !live_ && fps() > 0 && ms > kJumpMs && ms > kJumpFrames * 1000 / fps();
   }
 
-  // Where the header has no count of frames, OpenCV makes it of length and rate, which is not
-  // exact.
+  // If the header has no frame count, OpenCV estimates it from length and rate, which is not exact.
   absl::Status CheckEnd() const {
     if (live_) {
       std::error_code error;
@@ -184,7 +177,7 @@ class VideoSource : public FrameSource {
   bool live_;
   cv::VideoCapture capture_;
   cv::Mat first_;
-  // Frames that the header promises, 0 if it does not.
+  // Number of frames by the header; 0: unknown.
   std::int64_t promised_ = 0;
   double fps_ = 0;
   double last_ms_ = 0;

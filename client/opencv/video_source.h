@@ -10,8 +10,8 @@
 
 namespace homing::client {
 
-// Grey frames. Cameras and pipes are live: no size, no seeking. A damaged part is
-// a gap; DATA_LOSS at the end if it comes before what the file promises. INVALID_ARGUMENT: not a
+// Grey frames. Cameras and pipes are live: no size, no seeking. A damaged part is a gap; DATA_LOSS
+// at an end that comes before the number of frames in the file's header. INVALID_ARGUMENT: not a
 // video (texts and single images are none), or without frames.
 absl::StatusOr<std::unique_ptr<FrameSource>> OpenVideo(const std::string& path);
 

@@ -42,7 +42,7 @@ void DrawFromAbove(Canvas& canvas, const DrivePicture& picture) {
   };
   for (const Point& point : picture.outbound) take(point);
   for (const auto& driven : picture.driven) take(driven.place);
-  // A straight way is no line at the edge.
+  // Widens the range of a straight way, whose line would lie on the edge.
   const double middle = 0.5 * (y.low + y.high);
   y = {std::min(y.low, middle - kMostOffsetM), std::max(y.high, middle + kMostOffsetM)};
   Axes axes(&canvas, kAboveBox, Around(x.low, x.high, 1), Around(y.low, y.high, 1));
@@ -63,7 +63,7 @@ void DrawFromAbove(Canvas& canvas, const DrivePicture& picture) {
               LegendPlace::kAbove);
 }
 
-// Of one value over the way, home at the right.
+// Plots one value over the way, home at the right.
 void DrawOverWay(Canvas& canvas, const DrivePicture& picture, const Box& box, double most,
                  const AxisText& text, double DrivePicture::Driven::*value) {
   double farthest = 1;

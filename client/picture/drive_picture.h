@@ -1,5 +1,5 @@
-// The way that a robot drove home beside the outbound one: seen from above, and its offset and
-// heading over the way, with what the answers said.
+// Draws a robot's way home beside the outbound one: from above, and as offset and heading over the
+// way, each also as the answers reported it.
 #ifndef CLIENT_PICTURE_DRIVE_PICTURE_H_
 #define CLIENT_PICTURE_DRIVE_PICTURE_H_
 

@@ -1,6 +1,6 @@
 // Drives a robot home along its outbound path by the answers of Localize: answers in, speed and
-// turn rate out. Obstacles are the robot's own business. docs/how-to-steer.md
-// says how to tune it for a robot.
+// turn rate out. The robot itself must avoid obstacles. docs/how-to-steer.md describes how to tune
+// the pilot for a robot.
 #ifndef CLIENT_PILOT_PILOT_H_
 #define CLIENT_PILOT_PILOT_H_
 
@@ -10,10 +10,10 @@
 
 namespace homing::client {
 
-// What one answer of Localize says, in the robot's own left and right.
+// The content of one answer of Localize, in terms of the robot's own left and right.
 struct PilotAnswer {
   enum class Outcome { kMatch, kAmbiguous, kUnknownPlace };
-  // Of the observation, from 0 without gaps; not all of them need to arrive.
+  // Number of the observation, from 0 without gaps; answers may be missing.
   std::int64_t sequence = 0;
   // The robot's clock when the observation was made, s.
   double time_s = 0;
@@ -23,13 +23,13 @@ struct PilotAnswer {
   // Nothing has moved enough since the reference frame: a later answer reports the turn.
   bool is_standing = false;
   double probability = 0;
-  // Way home, 0 at the far end, 1 at home.
+  // Progress home: 0 at the far end, 1 at home.
   std::optional<double> progress_home;
   // Steps an observation, negative towards home.
   std::optional<double> speed_ratio;
-  // Rad to the left since the last answer that had one, beyond what the path needs.
+  // Change of the heading relative to the path since the last answer that had one, rad to the left.
   std::optional<double> turn;
-  // Metres left of the path over the distance of what is seen.
+  // Metres left of the path divided by the distance of the seen objects.
   std::optional<double> path_offset;
 };
 
@@ -43,28 +43,28 @@ struct PilotOptions {
   // Turns round first, and drives home ahead (Localize with travel RETURN); else drives home in
   // reverse (SAME).
   bool turn_round = true;
-  // Of the outbound path, m. Above 0.
+  // Length of the outbound path, m. Above 0.
   double route_m = 60;
   // Limits. Above 0.
   double most_speed_mps = 1;
   double most_turn_rate = 0.7;
-  // How far away is what the cameras see, m: turns `path_offset` into metres. Above 0.
+  // Distance of the objects that the cameras see, m; converts `path_offset` to metres. Above 0.
   double distance_m = 5;
-  // Rad of heading back to the path for each metre beside it, and the most of it.
+  // Heading back to the path, rad for each metre beside it, and its maximum, rad.
   double heading_per_m = 0.35;
   double most_heading = 0.4;
   // Turn rate for each rad of heading error, 1/s.
   double turn_gain = 1.3;
   // Delay of the robot's actuators, s: a first-order lag.
   double lag_s = 0.2;
-  // Share of the commanded motion that is usually lost to slip.
+  // Fraction of the commanded motion that is usually lost to slip.
   double usual_slip = 0.1;
-  // Speed while unsure and while searching, share of the most.
+  // Speeds while unsure and while searching, as fractions of the greatest speed.
   double unsure_speed = 0.5;
   double search_speed = 0.3;
-  // Unsure for so many metres driven: stops and searches.
+  // Metres driven while unsure after which the pilot stops and searches.
   double patience_m = 4;
-  // No answer for so long: slows down, stops. s.
+  // Time without an answer after which the pilot slows down, and after which it stops, s.
   double slow_after_s = 0.6;
   double stop_after_s = 1.2;
   // Stops this far before home, m.
@@ -85,7 +85,7 @@ class Pilot {
   PilotCommand Drive(double now_s);
 
   State state() const { return state_; }
-  // What the pilot believes now: metres left of the path, and heading against it, rad.
+  // The pilot's present belief: metres left of the path, and heading relative to it, rad.
   double offset_m() const { return now_.offset_m; }
   double heading() const { return now_.heading; }
   double remaining_m() const { return now_.remaining_m; }
@@ -96,16 +96,16 @@ class Pilot {
     double heading = 0;
     double remaining_m = 0;
   };
-  // What was commanded from a time on, and what the actuators then did.
+  // A command from a time on, and the actuators' motion at that time.
   struct Past {
     double time_s = 0;
     double speed_mps = 0;
     double turn_rate = 0;
   };
 
-  // Turned and driven between two times, as the commands say.
+  // Turn and distance between two times, by the commands.
   double Turned(double from_s, double to_s) const;
-  // The belief of time `from_s` carried on.
+  // The belief of time `from_s`, advanced to `to_s`.
   Belief Carried(const Belief& belief, double from_s, double to_s) const;
   void TakeTurn(const PilotAnswer& answer);
   void Watch(const PilotAnswer& answer, const Belief& expected);
@@ -121,17 +121,17 @@ class Pilot {
 
   PilotOptions options_;
   State state_;
-  // Of the last answer, at its time.
+  // Belief of the last answer, at its time.
   Belief known_;
-  // Now.
+  // Belief now.
   Belief now_;
   double answer_time_s_ = 0;
-  // Of the last answer that had a turn.
+  // Time of the last answer that had a turn, s.
   double turn_time_s_ = 0;
-  // When it had turned round.
+  // Time when the robot had turned round, s.
   double round_s_ = 0;
   std::int64_t last_sequence_ = -1;
-  // When an answer arrived; below 0: never.
+  // Time of the last answer, s; below 0: none yet.
   double heard_s_ = -1;
   double last_drive_s_ = -1;
   bool is_sure_ = false;
@@ -142,12 +142,12 @@ class Pilot {
   double sure_m_ = 0;
   // First sweep of this search, m.
   double sweep_m_ = 0;
-  // Metres left of the path as the heading has them, held near what the answers say.
+  // Metres left of the path by integration of the heading, kept near the offsets of the answers.
   double watched_m_ = 0;
   bool is_watching_ = false;
-  // Turn rate that nobody commanded: slip, and the path's own bends.
+  // Turn rate that no command caused: slip, and the path's own bends.
   double drift_ = 0;
-  // What the actuators do now.
+  // The actuators' present motion.
   PilotCommand motion_;
   std::deque<Past> past_;
 };

@@ -75,7 +75,7 @@ client::ConnectionOptions ToConnection(const Server& server) {
   options.tls_key = server.tls_key;
   options.token_file = server.token_file;
   options.insecure = server.insecure;
-  // A robot has no one to ask: it tries for as long as its program runs.
+  // A robot has no operator at hand: it retries as long as its program runs.
   options.retry_for = std::chrono::hours(24 * 365);
   return options;
 }

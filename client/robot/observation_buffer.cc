@@ -49,7 +49,7 @@ ObservationBuffer::~ObservationBuffer() {
   if (pending_count() > 0) {
     WriteToFile().IgnoreError();
   } else {
-    // The reference, which only this process could go on from.
+    // Drops the reference: only this process could continue to track from it.
     file_->DropBefore(end_, end_).IgnoreError();
   }
 }
@@ -98,7 +98,7 @@ absl::Status ObservationBuffer::Acknowledge(std::int64_t durable, std::int64_t r
     return drop;
   });
   memory_bytes_ -= from_memory;
-  // The file has nothing to drop while all waits in memory.
+  // While all observations are in memory, the file has nothing to drop.
   if (!file_ || file_bytes_ == 0) return absl::OkStatus();
   HOMING_ASSIGN_OR_RETURN(const std::int64_t dropped, file_->DropBefore(durable, reference));
   file_bytes_ -= dropped;
@@ -142,7 +142,7 @@ absl::Status ObservationBuffer::Align(std::int64_t durable) {
   }
   durable_ = std::clamp(durable, std::int64_t{0}, end_);
   cursor_ = durable_;
-  // The camera has moved on since the process before.
+  // The camera may have moved since the previous process.
   if (opened_at_ > 0) break_at_ = opened_at_;
   return absl::OkStatus();
 }

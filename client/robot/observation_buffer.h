@@ -23,10 +23,10 @@ struct BufferOptions {
 // One thread reads it as a stream; any thread may add, acknowledge and close.
 class ObservationBuffer : public client::ObservationStream {
  public:
-  // Numbers go on behind those of `file`.
+  // Numbers continue after those of `file`.
   static absl::StatusOr<std::unique_ptr<ObservationBuffer>> Create(
       const BufferOptions& options, std::optional<ObservationFile> file);
-  // Writes what waits in memory to the file; the file is empty if nothing waits.
+  // Writes the observations in memory to the file; the file is empty if nothing waits.
   ~ObservationBuffer() override;
 
   // Numbers the observation. RESOURCE_EXHAUSTED: full. Returns its number.
@@ -38,11 +38,11 @@ class ObservationBuffer : public client::ObservationStream {
   // Next returns std::nullopt at once.
   void Stop();
   std::int64_t pending() const;
-  // Waits until there is one to send. False: stopped.
+  // Waits until there is an observation to send. False: stopped.
   bool Await();
 
-  // Makes the numbers fit to a server that has all before `durable`: those added since the buffer
-  // was opened are new, whatever their number. Call it once, before the first Next.
+  // Renumbers for a server that has all observations before `durable`: those added since the buffer
+  // was opened are new, whatever their number was. Call it once, before the first Next.
   absl::Status Align(std::int64_t durable);
 
   // Waits for the next one. std::nullopt: closed.
@@ -56,7 +56,7 @@ class ObservationBuffer : public client::ObservationStream {
 
   std::int64_t pending_count() const HOMING_REQUIRES(mutex_) { return end_ - durable_; }
   absl::Status WriteToFile() HOMING_REQUIRES(mutex_);
-  // The first of at least `sequence`.
+  // The first observation with at least this sequence.
   absl::StatusOr<std::optional<StoredObservation>> Find(std::int64_t sequence) const
       HOMING_REQUIRES(mutex_);
 
@@ -64,7 +64,7 @@ class ObservationBuffer : public client::ObservationStream {
   mutable Mutex mutex_;
   ConditionVariable changed_;
   std::optional<ObservationFile> file_ HOMING_GUARDED_BY(mutex_);
-  // Behind those of the file.
+  // Observations after those of the file.
   std::deque<StoredObservation> memory_ HOMING_GUARDED_BY(mutex_);
   std::int64_t memory_bytes_ HOMING_GUARDED_BY(mutex_) = 0;
   std::int64_t file_bytes_ HOMING_GUARDED_BY(mutex_) = 0;
@@ -73,10 +73,10 @@ class ObservationBuffer : public client::ObservationStream {
   std::int64_t end_ HOMING_GUARDED_BY(mutex_) = 0;
   std::int64_t opened_at_ HOMING_GUARDED_BY(mutex_) = 0;
   std::int64_t durable_ HOMING_GUARDED_BY(mutex_) = 0;
-  // What Next gives next, and whether it is marked as a break.
+  // The number that Next returns next, and the one that is marked as a break.
   std::int64_t cursor_ HOMING_GUARDED_BY(mutex_) = 0;
   std::int64_t break_at_ HOMING_GUARDED_BY(mutex_) = -1;
-  // One was dropped: flow before the next one is missing.
+  // An observation was dropped: flow before the next one is missing.
   bool dropped_ HOMING_GUARDED_BY(mutex_) = false;
   bool closed_ HOMING_GUARDED_BY(mutex_) = false;
   bool stopped_ HOMING_GUARDED_BY(mutex_) = false;

@@ -128,7 +128,7 @@ absl::StatusOr<std::int64_t> ObservationFile::DropBefore(std::int64_t sequence, 
 absl::Status ObservationFile::Renumber(std::int64_t first, std::int64_t shift) {
   return Guarded(*database_, [&] {
     SQLite::Transaction change(*database_);
-    // By way of negative numbers, since no two rows may have the same one meanwhile.
+    // Uses negative numbers in between, since no two rows may have the same number at any time.
     SQLite::Statement move(
         *database_, "UPDATE observation SET sequence = -1 - sequence - ? WHERE sequence >= ?");
     move.bind(1, shift);

@@ -1,4 +1,4 @@
-// The file in which observations wait for the link: SQLite, so that a power cut leaves it whole.
+// The file in which observations wait for the link: SQLite, so that it survives a power cut.
 #ifndef CLIENT_ROBOT_OBSERVATION_FILE_H_
 #define CLIENT_ROBOT_OBSERVATION_FILE_H_
 
@@ -43,7 +43,7 @@ class ObservationFile {
     // The sequence after the last one; 0: the file is empty.
     std::int64_t end = 0;
     std::int64_t count = 0;
-    // Of all observations.
+    // Size of all observations, bytes.
     std::int64_t bytes = 0;
   };
   absl::StatusOr<Extent> Measure() const;

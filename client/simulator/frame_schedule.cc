@@ -54,7 +54,7 @@ bool FrameSchedule::IsAbsent(std::int64_t taken, Side camera) const {
   const std::int64_t stretch = taken / (5 * drop_run_);
   SeededRandom random(Mix(seed_, 80, static_cast<std::uint64_t>(stretch)));
   const Side lost = random.Chance(0.5) ? Side::kLeft : Side::kRight;
-  // Not at the beginning: a drive starts with both cameras.
+  // The first loss is not at the beginning: a drive starts with both cameras.
   const auto first = static_cast<std::int64_t>(
       random.Uniform(static_cast<double>(drop_run_), static_cast<double>(4 * drop_run_ + 1)));
   const std::int64_t at = taken % (5 * drop_run_);

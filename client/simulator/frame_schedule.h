@@ -1,4 +1,4 @@
-// Which of the frames that cameras take arrive: some are lost, some come twice.
+// Determines which of the cameras' frames arrive: some are lost, some come twice.
 #ifndef CLIENT_SIMULATOR_FRAME_SCHEDULE_H_
 #define CLIENT_SIMULATOR_FRAME_SCHEDULE_H_
 
@@ -9,7 +9,7 @@
 
 namespace homing::client {
 
-// Takes no longer the longer the drive is.
+// The cost does not depend on the length of the drive. Immutable.
 class FrameSchedule {
  public:
   // The spec must be valid; `taken` frames are taken on the drive.
@@ -19,7 +19,7 @@ class FrameSchedule {
   std::int64_t frame_count() const { return frame_count_; }
   // Number, among those taken, of the frame that arrives as number `index`.
   std::int64_t TakenAt(std::int64_t index) const;
-  // The camera gives none for this frame.
+  // True if the camera gives no image for this frame.
   bool IsAbsent(std::int64_t taken, Side camera) const;
 
  private:

@@ -1,5 +1,4 @@
-// Vectors and poses of the simulated world: x and y on the ground, z up, metres. Source: own
-// design.
+// Vectors and poses of the simulated world: x and y on the ground, z up, metres.
 #ifndef CLIENT_SIMULATOR_GEOMETRY_H_
 #define CLIENT_SIMULATOR_GEOMETRY_H_
 
@@ -14,13 +13,13 @@ namespace homing::client {
 using Vector2 = cv::Vec2d;
 using Vector3 = cv::Vec3d;
 
-// On the ground; heading anticlockwise from x, radians, of the OUTBOUND direction.
+// A pose on the ground. The heading is that of the OUTBOUND direction, anticlockwise from x, rad.
 struct Pose {
   Vector2 position;
   double heading = 0;
 
   Vector2 Along() const { return {std::cos(heading), std::sin(heading)}; }
-  // To the left of the outbound direction.
+  // Unit vector to the left of the outbound direction.
   Vector2 Left() const { return {-std::sin(heading), std::cos(heading)}; }
   // A point of the ground this far along and to the left.
   Vector2 At(double along_m, double left_m) const {
@@ -75,11 +74,11 @@ struct Ray {
   double y = 0;
 };
 
-// Nothing nearer than this is seen, m.
+// The camera sees nothing nearer than this, m.
 inline constexpr double kNearest = 0.05;
-// The depth of what is infinitely far, m.
+// The depth of an infinitely distant surface, m.
 inline constexpr double kFarAway = 1e9;
-// The depth of nothing at all.
+// The depth of a ray that hits no surface.
 inline constexpr double kNothing = 1e30;
 
 }  // namespace homing::client

@@ -1,3 +1,4 @@
+// The world of landmarks of worlds.h.
 #include <cmath>
 #include <numbers>
 #include <utility>

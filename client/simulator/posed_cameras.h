@@ -27,7 +27,7 @@ class PosedCameras {
   // The line that an outbound robot follows without offset and wobble.
   const Route& route() const { return route_; }
   const Scene& scene() const { return scene_; }
-  // Refers to this.
+  // The view refers to this object.
   View ViewAt(const Pose& robot, Side camera) const;
 
   // CV_8UC1. `frame` numbers the noise and the exposure.

@@ -131,7 +131,7 @@ class BrightnessRenderer {
     });
   }
 
-  // Only what the pixel and its neighbours show can be met.
+  // The rays of a pixel can only hit the surfaces that it or its neighbours show.
   float Supersample(int x, int y, std::size_t pixel) const {
     const auto cross = Cross(x, y, pixel);
     float sum = 0;

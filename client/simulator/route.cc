@@ -48,7 +48,7 @@ double Route::Nearest(const Vector2& point) const {
     return away.dot(away);
   });
   double route_m = static_cast<double>(nearest - nodes_.begin()) - kMarginM;
-  // The line is nearly straight: each time the rest of the way along it.
+  // Moves along the line by the remaining distance, four times; the line is nearly straight.
   for (int i = 0; i < 4; ++i) {
     const Pose at = At(route_m);
     route_m += (point - at.position).dot(at.Along());

@@ -9,19 +9,21 @@
 
 namespace homing::client {
 
-// Straight, or bending gently to either side in turn: heading = bend sin(2 pi s / period + phase).
-// Besides, corners may be in it.
+// A straight line, or one that bends gently to either side in turn: heading = bend sin(2 pi s /
+// period + phase). It may also have two corners.
 struct RouteBend {
   double bend_rad = 0;
   double period_m = 100;
   double phase_rad = 0;
-  // One turns the line by this to the left, the other back, in kCornerM each.
+  // Of two corners, one turns the line by this to the left and the other one back, in kCornerM
+  // each, rad.
   double corner_rad = 0;
   std::array<double, 2> corners_m{};
 
   static constexpr double kCornerM = 8;
 };
 
+// Immutable.
 class Route {
  public:
   Route(double length_m, const RouteBend& bend);
@@ -29,7 +31,7 @@ class Route {
   // The line's point and direction `route_m` from home; also a little beyond both ends.
   Pose At(double route_m) const;
   double length_m() const { return length_m_; }
-  // Where along the line, and its margins, the nearest point lies.
+  // The place of the nearest point along the line and its margins, m.
   double Nearest(const Vector2& point) const;
 
   // The line is known this far beyond its ends.
@@ -41,7 +43,7 @@ class Route {
 
   double length_m_;
   RouteBend bend_;
-  // One a metre, from -kMarginM.
+  // Points of the line, one a metre, from -kMarginM on.
   std::vector<Vector2> nodes_;
 };
 

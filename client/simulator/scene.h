@@ -1,4 +1,4 @@
-// The surfaces along a route and what they look like.
+// The surfaces along a route and their appearance.
 #ifndef CLIENT_SIMULATOR_SCENE_H_
 #define CLIENT_SIMULATOR_SCENE_H_
 
@@ -11,7 +11,7 @@ namespace homing::client {
 
 // Grey value: mean + contrast * texture, the texture in [-1, 1] with deviation 0.5.
 struct Material {
-  // Of the pool, TextureKind.
+  // Index of the texture in the pool, TextureKind.
   int texture = 0;
   // Side of one tile, m.
   double tile_m = 3;
@@ -26,10 +26,11 @@ struct Surface {
   Material material;
   // Number along the route, -1: background.
   int landmark = -1;
-  // Where along the route.
+  // Place along the route, m.
   double route_m = 0;
 };
 
+// Immutable.
 class Scene {
  public:
   Scene(std::vector<Surface> surfaces, const Material& ground, const Material& skyline,
@@ -42,11 +43,11 @@ class Scene {
   double sky_grey() const { return sky_grey_; }
   const std::vector<Surface>& surfaces() const { return surfaces_; }
 
-  // Farther along the route nothing but background is seen.
+  // Beyond this distance along the route a camera sees only background.
   static constexpr double kReachM = 60;
 
  private:
-  // In order of route_m.
+  // Sorted by route_m.
   std::vector<Surface> surfaces_;
   Surface ground_;
   Surface skyline_;

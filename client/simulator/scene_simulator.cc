@@ -13,7 +13,7 @@
 namespace homing::client {
 namespace {
 
-// Most pixels wins, the lower number if equal.
+// The landmark with the most pixels; of equal ones the lower number.
 CameraTruth TruthOf(const View& view, const SurfaceMap& map) {
   std::vector<int> surface_pixels(view.surfaces().size(), 0);
   for (const std::int16_t surface : map.surfaces) {

@@ -12,9 +12,10 @@
 
 namespace homing::client {
 
-// Over the ground.
+// Height of the cameras over the ground, m.
 inline constexpr double kCameraHeightM = 1;
 
+// Immutable.
 class SceneSimulator final : public Simulator {
  public:
   // The spec must be valid; its scene, seed and remove are what `scene` was made with.
@@ -33,7 +34,7 @@ class SceneSimulator final : public Simulator {
   cv::Mat TrueFlow(std::int64_t index, Side camera) const override;
 
  private:
-  // Of a frame that is taken; not all arrive.
+  // The view of a frame that the camera takes; not all of them arrive.
   View ViewAt(std::int64_t taken, Side camera) const;
   cv::Mat Image(const View& view, const SurfaceMap& map, std::int64_t taken, Side camera) const;
 

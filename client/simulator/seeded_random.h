@@ -24,6 +24,7 @@ inline std::uint64_t Mix(std::uint64_t a, std::uint64_t b, std::uint64_t c) {
 // [0, 1).
 inline double ToUnit(std::uint64_t bits) { return static_cast<double>(bits >> 11U) * 0x1p-53; }
 
+// Not thread-safe.
 class SeededRandom {
  public:
   explicit SeededRandom(std::uint64_t key) : key_(Mix(key)) {}

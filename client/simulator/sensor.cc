@@ -64,7 +64,7 @@ cv::Mat Sensor::Expose(const std::vector<float>& brightness, std::int64_t frame,
     // Four numbers of 16 bits to a mixed counter.
     bits = i % 4 == 0 ? Mix(key + i) : bits >> 16U;
     const float value = gain * brightness[i] + sigma * standard_noise[bits % kNoiseCount];
-    // Half a level more, so that the conversion rounds.
+    // Adds half a level, so that the conversion rounds to nearest.
     const float raised = value + 0.5F;
     out[i] = static_cast<std::uint8_t>(std::clamp(raised, 0.0F, 255.0F));
   }

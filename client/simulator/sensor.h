@@ -15,10 +15,10 @@ struct Sensor {
   double light = 1;
   // Grey levels.
   double noise = 2;
-  // Of noise and exposure.
+  // Seed of noise and exposure.
   std::uint64_t drive_seed = 1;
 
-  // Each frame of each camera has a gain of its own in light * [1 - this, 1 + this].
+  // Each frame of each camera has its own gain in light * [1 - this, 1 + this].
   static constexpr double kExposureVariation = 0.1;
 
   double Gain(std::int64_t frame, Side camera) const;

@@ -131,7 +131,7 @@ double ViewedSkyline::Depth(const Ray& ray) const {
 
 Vector2 ViewedSkyline::Texture(const Ray& ray, double /*depth*/) const {
   const Vector3 direction = camera.TurnedBack({ray.x, 0, 1});
-  // As if it stood 100 m away.
+  // Texture coordinates as at a distance of 100 m.
   return {100 * std::atan2(direction[1], direction[0]),
           -100 * ray.y / std::sqrt(1 + ray.x * ray.x)};
 }

@@ -20,7 +20,7 @@ struct Parallelogram {
   Vector3 edge_v;
 };
 
-// Upright, without caps: what it stands on and its top are not seen from its side.
+// Upright, without caps: top and bottom are not visible from its side.
 struct Cylinder {
   Vector2 center;
   double radius = 1;
@@ -39,7 +39,7 @@ struct Ellipsoid {
 // z = 0 everywhere.
 struct Ground {};
 
-// Infinitely far: a ragged band above the horizon.
+// A ragged band above the horizon, infinitely far away.
 struct Skyline {
   double seed_phase = 0;
 };

@@ -18,7 +18,7 @@ namespace homing::client {
 
 // One drive through a scene. From text: "sim:SCENE[,key=value...]".
 struct SimulationSpec {
-  // "landmarks" or "street"; tests may build scenes of their own (scene.h).
+  // "landmarks" or "street"; tests may build other scenes (scene.h).
   std::string scene = "street";
   // World; the same seed and length is the same route, another seed a foreign one.
   std::uint64_t seed = 1;
@@ -34,7 +34,7 @@ struct SimulationSpec {
   double light = 1;
   // Sensor noise sigma, grey levels of 255. [2, 100].
   double noise = 2;
-  // Share of landmarks removed. [0, 1].
+  // Fraction of landmarks removed. [0, 1].
   double remove = 0;
   // Amplitude of a slow lateral and yaw wobble, m. [0, 2].
   double wobble_m = 0;
@@ -52,16 +52,16 @@ struct SimulationSpec {
   // Rough ground: pitch and roll of each frame up to this, degrees, and its height up to as many
   // centimetres. [0, 5].
   double rough_deg = 0;
-  // Every so manieth frame repeats the one before it, without a pause in the drive; 0: none.
-  // [2, 1000].
+  // Each n-th frame repeats the previous one, without a pause in the drive; n is this value. 0:
+  // none. [2, 1000].
   double repeat = 0;
-  // Share of frames that are lost, both cameras', in twentieths. [0, 0.95].
+  // Fraction of the frames of both cameras that are lost, in twentieths. [0, 0.95].
   double drop = 0;
-  // In every 5 times as many frames one of the cameras gives none for so many in a row; 0: none.
-  // [1, 1000].
+  // Number of frames in a row that one of the cameras loses, once in five times as many frames; 0:
+  // none. [1, 1000].
   double drop_run = 0;
-  // The route turns by so many degrees to one side after a third of its length, and back after two
-  // thirds. [-60, 60].
+  // The route turns by this to the left after a third of its length, and back after two thirds,
+  // degrees. [-60, 60].
   double corner_deg = 0;
   // True: from the far end home, heading the other way.
   bool travel_return = false;

@@ -11,7 +11,7 @@ namespace homing::client {
 namespace {
 
 constexpr double kSpacingM = 0.02;
-// From the slowest place to the next one about this; some nearer, some further.
+// Approximate distance from one slowest place to the next.
 constexpr double kPeriodM = 9;
 constexpr double kUnevenPeriodM = 23;
 constexpr double kUnevenRad = 2;

@@ -1,5 +1,4 @@
-// How far a robot has driven after how long, if its speed varies as a person drives. Source: own
-// design.
+// The distance driven over time if the speed varies as that of a human driver.
 #ifndef CLIENT_SIMULATOR_SPEED_PROFILE_H_
 #define CLIENT_SIMULATOR_SPEED_PROFILE_H_
 
@@ -8,6 +7,7 @@
 
 namespace homing::client {
 
+// Immutable.
 class SpeedProfile {
  public:
   // `vary`: 0 a constant speed, 1 from kSlowest to kFastest times `speed_m_s`.
@@ -16,7 +16,7 @@ class SpeedProfile {
   static constexpr double kSlowest = 0.3;
   static constexpr double kFastest = 2;
 
-  // For the whole length.
+  // Duration of the whole drive.
   double DurationS() const { return TimeS(length_m_); }
   double TimeS(double driven_m) const;
   double DrivenMetres(double time_s) const;
@@ -28,10 +28,10 @@ class SpeedProfile {
   double length_m_;
   double speed_m_s_;
   double vary_;
-  // Of its waves.
+  // Phases of the speed's waves.
   double slow_phase_ = 0;
   double quick_phase_ = 0;
-  // At every kSpacingM of the drive; empty if the speed is constant.
+  // Times at every kSpacingM of the drive; empty if the speed is constant.
   std::vector<double> times_s_;
 };
 

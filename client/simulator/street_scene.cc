@@ -1,3 +1,4 @@
+// The street of worlds.h.
 #include <array>
 #include <numbers>
 #include <utility>

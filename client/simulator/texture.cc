@@ -1,3 +1,4 @@
+// The class Texture of texture_pool.h.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -42,7 +43,7 @@ Texture::Texture(const std::vector<double>& tones) {
 
 float Texture::SampleLevel(const Level& level, float u, float v) {
   const auto side = static_cast<float>(level.side);
-  // One texel more, so that the conversion rounds down.
+  // Adds one texel, so that the conversion rounds down at u = 0 too.
   const float x = u * side + 0.5F;
   const float y = v * side + 0.5F;
   const int left = static_cast<int>(x);

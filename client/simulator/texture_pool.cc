@@ -9,7 +9,7 @@
 namespace homing::client {
 namespace {
 
-// Constant: the pool is the same in every world.
+// A constant, so that the pool is the same in every world.
 constexpr std::uint64_t kPoolSeed = 20090817;
 
 double Tone(std::uint64_t stream, int x, int y) {

@@ -10,6 +10,7 @@
 namespace homing::client {
 
 // A tile that repeats in both directions, with levels of half the size each. Values are in [-1, 1].
+// Immutable.
 class Texture {
  public:
   static constexpr int kSide = 256;

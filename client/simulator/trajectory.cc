@@ -33,7 +33,7 @@ Trajectory::Trajectory(const SimulationSpec& spec, std::uint64_t drive_seed)
 
 std::int64_t Trajectory::frame_count() const {
   const double duration_s = speed_.DurationS() + spec_.stop_s;
-  // A frame that falls on the end but for rounding is on it.
+  // The margin counts a frame at the very end in spite of rounding.
   return static_cast<std::int64_t>(duration_s * spec_.fps + 1e-6) + 1;
 }
 

@@ -1,4 +1,4 @@
-// Where the robot is at each frame.
+// The robot's place at each frame.
 #ifndef CLIENT_SIMULATOR_TRAJECTORY_H_
 #define CLIENT_SIMULATOR_TRAJECTORY_H_
 
@@ -10,6 +10,7 @@
 
 namespace homing::client {
 
+// Immutable.
 class Trajectory {
  public:
   // The spec must be valid.
@@ -21,7 +22,7 @@ class Trajectory {
   double RouteMetres(std::int64_t frame) const;
   // On the route, with offset and wobble; heading as if outbound.
   Pose At(std::int64_t frame, const Route& route) const;
-  // Of the ground under the robot at a frame.
+  // Unevenness of the ground under the robot at a frame.
   struct Jolt {
     // Radians, about the robot's long axis and about the axis to its left.
     double roll = 0;
@@ -40,7 +41,7 @@ class Trajectory {
   SpeedProfile speed_;
   double sway_phase_;
   double yaw_phase_;
-  // Of the steering.
+  // Phases of the steering.
   double long_phase_;
   double short_phase_;
 };

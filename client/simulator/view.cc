@@ -28,7 +28,7 @@ RayBounds Untilted(const RayBounds& bounds, const PixelRays& rays) {
   if (!rays.is_tilted() || bounds.low.x > bounds.high.x || bounds.low.y > bounds.high.y) {
     return bounds;
   }
-  // Beyond any image, and still before the camera when turned.
+  // Rays outside of any image, but still in front of the tilted camera.
   const auto bound = [](double v) { return std::clamp(v, -2.0, 2.0); };
   RayBounds result{{kFarAway, kFarAway}, {-kFarAway, -kFarAway}};
   for (const double x : {bounds.low.x, bounds.high.x}) {

@@ -31,6 +31,7 @@ struct Tilt {
 };
 
 // Rays of a tilted camera in the coordinates of the upright one: surfaces are seen in these.
+// Immutable.
 class PixelRays {
  public:
   explicit PixelRays(const Tilt& tilt);
@@ -64,7 +65,7 @@ struct SurfaceMap {
   std::vector<std::int16_t> surfaces;
 };
 
-// Refers to the scene, which must outlive it.
+// Refers to the scene, which must outlive it. Immutable.
 class View {
  public:
   View(const Scene& scene, double route_m, const CameraPose& camera, const Tilt& tilt = {});

@@ -1,5 +1,4 @@
-// A robot on two driven wheels: it follows commands late, slips, and never does quite what it is
-// commanded.
+// A robot on two driven wheels: it follows commands late, slips, and deviates from its commands.
 #ifndef CLIENT_SIMULATOR_WHEELED_ROBOT_H_
 #define CLIENT_SIMULATOR_WHEELED_ROBOT_H_
 
@@ -13,12 +12,13 @@ namespace homing::client {
 struct WheeledRobotOptions {
   // Time constant of the actuators, s. [0, 2].
   double lag_s = 0.2;
-  // Most that a wheel slips, a share of its motion. Each wheel's slip varies by itself. [0, 1).
+  // Greatest slip of a wheel, as a fraction of its motion. Each wheel's slip varies independently.
+  // [0, 1).
   double slip = 0.2;
-  // Deviation of the speed and of the turn rate from the command, a share of it, changing
-  // kNoiseHz times a second. [0, 1].
+  // Deviation of speed and turn rate from the command, as a fraction of it, changing kNoiseHz times
+  // a second. [0, 1].
   double noise = 0.05;
-  // Between the wheels, m. Above 0.
+  // Distance between the wheels, m. Above 0.
   double track_m = 0.6;
   std::uint64_t seed = 1;
 
@@ -42,7 +42,7 @@ class WheeledRobot {
   void SetDown(const Pose& pose) { pose_ = pose; }
 
   const Pose& pose() const { return pose_; }
-  // What the actuators do now.
+  // The actuators' present motion.
   const Command& motion() const { return motion_; }
   double time_s() const { return static_cast<double>(ticks_) * kTickS; }
 
@@ -50,14 +50,14 @@ class WheeledRobot {
   static constexpr double kTickS = 0.01;
 
   void Tick(const Command& command);
-  // A share of the motion, by wheel.
+  // Present slip of a wheel, a fraction of its motion.
   double SlipOf(std::size_t wheel) const;
 
   WheeledRobotOptions options_;
   Pose pose_;
   Command motion_;
   std::int64_t ticks_ = 0;
-  // Of the slip of each wheel, two waves.
+  // Phases of the two waves of each wheel's slip.
   std::array<std::array<double, 2>, 2> phases_{};
 };
 

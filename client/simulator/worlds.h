@@ -18,11 +18,11 @@ RouteBend BendOf(std::uint64_t seed);
 Route MakeRoute(const SimulationSpec& spec);
 Scene MakeScene(const SimulationSpec& spec, const Route& route);
 
-// Spheres, towers, parallelograms and hills 3 to 15 m to either side, with gaps. `remove` is the
-// share of landmarks left out, [0, 1]; a larger share leaves out the same ones and more.
+// Makes spheres, towers, parallelograms and hills 3 to 15 m to either side, with gaps. `remove` is
+// the fraction of landmarks left out, [0, 1]; a larger value leaves out the same ones and more.
 Scene MakeLandmarkScene(const Route& route, std::uint64_t seed, double remove);
 
-// Rows of repeating facades with gaps, posts and parked boxes before them.
+// Makes rows of repeating facades with gaps, and posts and parked boxes before them.
 Scene MakeStreetScene(const Route& route, std::uint64_t seed, double remove);
 
 }  // namespace homing::client

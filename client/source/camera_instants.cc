@@ -10,12 +10,11 @@
 namespace homing::client {
 namespace {
 
-// Bad frames that are reported one by one.
+// Number of bad frames that are reported one by one.
 constexpr std::int64_t kReported = 5;
 constexpr double kNanoseconds = 1e9;
-constexpr std::array<const char*, 2> kNames = {"left", "right"};
 
-// Rates that differ by less are one.
+// Rates that differ by a smaller fraction count as equal.
 constexpr double kSameRate = 0.01;
 
 FrameKeys TimesAtRate(const FrameSource& camera) {
@@ -79,9 +78,10 @@ absl::Status CameraInstants::CheckTimes() const {
   if (choice_.fps <= 0 && choice_.seconds <= 0) return absl::OkStatus();
   for (std::size_t camera = 0; camera < cameras_.size(); ++camera) {
     if (cameras_[camera] == nullptr || HasTimes(*cameras_[camera], keys_[camera])) continue;
-    return absl::InvalidArgumentError(absl::StrCat(
-        choice_.fps > 0 ? "--fps" : "--seconds", " needs frames with times, and the names of --",
-        kNames[camera], " give none; name the files by their time in seconds, or give --every N"));
+    return absl::InvalidArgumentError(
+        absl::StrCat(choice_.fps > 0 ? "--fps" : "--seconds",
+                     " needs frames with times, and the names of --", kCameraNames[camera],
+                     " give none; name the files by their time in seconds, or give --every N"));
   }
   return absl::OkStatus();
 }
@@ -116,12 +116,12 @@ absl::StatusOr<std::optional<SourceFrame>> CameraInstants::ReadFrame(std::size_t
   const std::int64_t target = source.size() < 0 ? index : std::min(index, source.size());
   if (position_[camera] != target && !source.live()) {
     if (!source.Seek(target)) {
-      return absl::InternalError(absl::StrCat("--", kNames[camera], " has no frame ", index));
+      return absl::InternalError(absl::StrCat("--", kCameraNames[camera], " has no frame ", index));
     }
     position_[camera] = target;
   }
   auto frame = source.Next();
-  // A camera gives the frames between too.
+  // A live camera also delivers the frames in between.
   while (source.live() && frame.ok() && *frame && position_[camera] < index) {
     ++position_[camera];
     frame = source.Next();
@@ -156,8 +156,8 @@ void CameraInstants::Report(std::size_t camera, const SourceFrame& frame) {
 absl::Status CameraInstants::TakeGap(std::size_t camera, Instant* instant) {
   instant->gap_before = true;
   SourceFrame missing;
-  missing.fault =
-      absl::StrCat("--", kNames[camera], ": a damaged part before frame ", position_[camera] - 1);
+  missing.fault = absl::StrCat("--", kCameraNames[camera], ": a damaged part before frame ",
+                               position_[camera] - 1);
   if (choice_.strict) return absl::InvalidArgumentError(missing.fault);
   Report(camera, missing);
   return absl::OkStatus();

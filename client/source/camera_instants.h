@@ -26,7 +26,7 @@ struct FrameChoice {
   double fps = 0;
   // Ends after so many seconds of the source's time; 0: at its end.
   double seconds = 0;
-  // A bad frame is an error; else it is skipped and reported. Frames without a partner are too.
+  // Bad frames and frames without a partner are errors; else they are skipped and reported.
   bool strict = false;
   // Receives one line of text for each thing that is left out, with the reason.
   std::function<void(const std::string&)> report = [](const std::string&) {};
@@ -58,10 +58,10 @@ class CameraInstants {
   static absl::StatusOr<std::unique_ptr<CameraInstants>> Create(Cameras cameras,
                                                                 const FrameChoice& choice);
 
-  // Nothing at the end. INVALID_ARGUMENT: with `strict`, a bad frame; no frame is usable at all.
-  // DATA_LOSS: a video ends before the number of frames that it promises.
+  // The next instant; nothing at the end. INVALID_ARGUMENT: with `strict`, a bad frame; no frame is
+  // usable at all. DATA_LOSS: a video ends before the number of frames that it promises.
   absl::StatusOr<std::optional<Instant>> Next();
-  // Where the next instant will be read.
+  // The place from which the next instant will be read.
   Place place() const { return peeked_ ? peeked_from_ : place_; }
   // Goes back or forward to a place that place() gave. False: a live source.
   bool GoTo(const Place& place);
@@ -89,7 +89,7 @@ class CameraInstants {
   void Report(std::size_t camera, const SourceFrame& frame);
   // Seconds since the source's first frame.
   double TimeOf(const Instant& instant);
-  // Whether the instant is used, as fps and seconds say; sets ended_.
+  // True if the instant is used according to fps and seconds; sets ended_.
   bool Wanted(const Instant& instant);
 
   Cameras cameras_;

@@ -20,8 +20,9 @@ struct FramePairing {
   std::string by;
 };
 
-// By time (the nearest, at most half of the shorter interval between frames apart), else by number,
-// else by order. Times and numbers of which less than half have a partner are of no use: by order.
+// Pairs by time (the nearest, at most half of the shorter interval between frames apart), else by
+// number, else by order. Times and numbers of which less than half have a partner are of no use: by
+// order.
 FramePairing PairFrames(const FrameKeys& left, std::int64_t left_size, const FrameKeys& right,
                         std::int64_t right_size);
 

@@ -31,7 +31,7 @@ struct SourceFrame {
   Frame view() const { return {encoding, width, height, data}; }
 };
 
-// What the frames of a source have to be paired by with those of another camera.
+// Keys by which the frames of a source are paired with those of another camera.
 struct FrameKeys {
   // kTime: nanoseconds from any instant on; kNumber: a counter; kOrder: nothing but their order.
   enum class Kind { kOrder, kNumber, kTime };
@@ -53,12 +53,12 @@ class FrameSource {
   // Seeks to frame `index` (at most size(); beyond the end of a video: its end); false: not
   // possible (live camera).
   virtual bool Seek(std::int64_t index) = 0;
-  // A camera or a pipe: it has no end, and what was read cannot be read again.
+  // A camera or a pipe: it has no end, and frames cannot be read again.
   virtual bool live() const { return false; }
   virtual FrameKeys keys() const { return {}; }
   // Frames a second, 0 if not known.
   virtual double fps() const { return 0; }
-  // What the user should know of what was left out; empty: nothing.
+  // A message on omitted files for the user; empty: none.
   virtual std::string remark() const { return ""; }
   // Names the source of the frames, if two cameras must not share it; else empty.
   virtual std::string name() const { return ""; }
@@ -66,7 +66,7 @@ class FrameSource {
   virtual std::optional<Camera> camera() const { return std::nullopt; }
 };
 
-// Whether it is the address of a camera: rtsp:// or http://, also encrypted.
+// True for the address of a camera: rtsp:// or http://, also encrypted.
 bool IsNetworkSource(const std::string& source);
 
 // Checks that the text names a source, without opening it. INVALID_ARGUMENT.

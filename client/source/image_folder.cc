@@ -70,14 +70,14 @@ absl::StatusOr<std::string> ReadBytes(const std::string& path) {
   return bytes;
 }
 
-// By the first bytes, independent of the file's name.
+// The encoding by the first bytes, independent of the file's name.
 std::optional<FrameEncoding> EncodingOf(const std::string& bytes) {
   if (bytes.rfind("\xff\xd8", 0) == 0) return FrameEncoding::kJpeg;
   if (bytes.rfind("\x89PNG", 0) == 0) return FrameEncoding::kPng;
   return std::nullopt;
 }
 
-// OpenCV turns TIFF as it says, but not WebP.
+// OpenCV applies the orientation of TIFF, but not that of WebP.
 absl::StatusOr<SourceFrame> DecodeOther(const std::string& path, const std::string& bytes) {
   HOMING_ASSIGN_OR_RETURN(const OpenCvReaders* const readers, LoadOpenCvReaders());
   HOMING_ASSIGN_OR_RETURN(SourceFrame frame, readers->read_gray_image(path));

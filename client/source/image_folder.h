@@ -14,7 +14,7 @@ namespace homing::client {
 
 struct ImageList {
   std::vector<std::string> paths;
-  // When each was captured, ascending, nanoseconds; empty: as the names say.
+  // Capture time of each file, ascending, nanoseconds; empty: the names decide.
   std::vector<std::int64_t> times_ns = {};
   // Hidden files with an image's name, left out.
   int hidden = 0;
@@ -25,7 +25,7 @@ struct ImageList {
 // The image files of a folder or of a glob, in the order of SortByName. NOT_FOUND: none.
 absl::StatusOr<ImageList> ListImages(const std::string& folder_or_glob);
 
-// One image file. JPEG and PNG unchanged, other formats as GRAY8. The system's error, or
+// Reads one image file: JPEG and PNG unchanged, other formats as GRAY8. The system's error, or
 // INVALID_ARGUMENT: the file is empty, or its first bytes are those of no image.
 absl::StatusOr<SourceFrame> ReadImage(const std::string& path);
 

@@ -1,4 +1,4 @@
-// What the names of image files say about their order and time.
+// Order and time of image files by their names.
 #ifndef CLIENT_SOURCE_IMAGE_NAMES_H_
 #define CLIENT_SOURCE_IMAGE_NAMES_H_
 
@@ -11,7 +11,7 @@
 
 namespace homing::client {
 
-// Whether the name ends as image files do that can be read.
+// True if the name has the ending of a readable image format.
 bool HasImageEnding(const std::string& path);
 
 // Nanoseconds: a decimal number is seconds; a whole number of 12 digits and more is milliseconds,
@@ -21,13 +21,13 @@ std::optional<std::int64_t> ParseTime(const std::string& text);
 // Numbers inside names count as numbers: 2.png before 10.png.
 bool NaturalLess(const std::string& a, const std::string& b);
 
-// As decimal numbers (0.05 before 0.1) where each whole name, its ending apart, is one and at least
-// one has a point; else by NaturalLess.
+// Sorts as decimal numbers (0.05 before 0.1) if each name without its ending is a number and at
+// least one has a point; else by NaturalLess.
 void SortByName(std::vector<std::string>* paths);
 
-// Of sorted paths. Times: decimal numbers are seconds; whole numbers of 12 digits and more are
-// milliseconds, microseconds or nanoseconds by their size. Else the last number in each name, if it
-// ascends. Else kOrder.
+// The keys of sorted paths. Times: decimal numbers are seconds; whole numbers of 12 digits and more
+// are milliseconds, microseconds or nanoseconds by their size. Else the last number in each name,
+// if it ascends. Else kOrder.
 FrameKeys KeysOfNames(const std::vector<std::string>& paths);
 
 }  // namespace homing::client

@@ -13,7 +13,7 @@ using Frame = absl::StatusOr<std::optional<SourceFrame>>;
 struct Mailbox {
   Mutex mutex;
   ConditionVariable changed;
-  // The frame read and not yet taken: the reader waits, so that a pipe loses nothing.
+  // The frame that was read but not taken yet: the reader waits, so that a pipe loses nothing.
   std::optional<Frame> frame HOMING_GUARDED_BY(mutex);
   bool closed HOMING_GUARDED_BY(mutex) = false;
 };
@@ -59,7 +59,7 @@ class StoppableSource : public FrameSource {
     Frame frame = *std::move(mailbox_->frame);
     mailbox_->frame.reset();
     ended_ = !frame.ok() || !frame->has_value();
-    // Given again, as by every source.
+    // Every source returns its error again.
     error_ = frame.status();
     mailbox_->changed.NotifyAll();
     return frame;

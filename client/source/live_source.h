@@ -1,4 +1,4 @@
-// A camera that can be left at any time.
+// A camera that can be stopped at any time.
 #ifndef CLIENT_SOURCE_LIVE_SOURCE_H_
 #define CLIENT_SOURCE_LIVE_SOURCE_H_
 

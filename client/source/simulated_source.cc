@@ -21,7 +21,7 @@ class SimulatedSource : public FrameSource {
     }
     SourceFrame frame{FrameEncoding::kGray8, image.cols, image.rows, {}};
     frame.data.assign(reinterpret_cast<const char*>(image.data), image.total());
-    // 0 would be no time.
+    // Plus 1, because 0 means that the time is unknown.
     if (has_times_) frame.capture_time_ns = 1 + std::llround(1e9 * simulator_->TimeS(next_ - 1));
     return std::make_optional(std::move(frame));
   }

@@ -1,4 +1,4 @@
-// What tells one recording's source from another.
+// A mark that distinguishes the source of one recording from another.
 #ifndef CLIENT_SOURCE_SOURCE_MARK_H_
 #define CLIENT_SOURCE_SOURCE_MARK_H_
 
@@ -9,11 +9,12 @@
 
 namespace homing::client {
 
-// The mark of live sources, which never give the same again.
+// The mark of live sources, which never repeat their frames.
 inline constexpr char kLiveMark[] = "live";
 
-// Of the sources' names (of files and folders: where they are), the choice of frames and the first
-// frames: 16 hexadecimal digits; or kLiveMark. INVALID_ARGUMENT: they have no usable frame.
+// A hash of the sources' names (for files and folders, their paths), of the choice of frames and of
+// the first frames: 16 hexadecimal digits; or kLiveMark. INVALID_ARGUMENT: they have no usable
+// frame.
 absl::StatusOr<std::string> MarkOfSource(const std::string& left, const std::string& right,
                                          const FrameChoice& choice, CameraInstants& instants);
 

@@ -19,8 +19,8 @@ namespace {
 constexpr int kMinSidePx = 16;
 constexpr int kMaxSidePx = 8192;
 constexpr double kHalf = 127.5;
-// Over this fraction of the image's width the picture fades out: an edge of a few pixels would be
-// followed.
+// The picture fades out over this fraction of the image's width: the tracker would follow a sharp
+// edge.
 constexpr double kFadeFraction = 1.0 / 40;
 constexpr double kFarWeight = 0.02;
 
@@ -61,7 +61,7 @@ class WindowSource : public FrameSource {
   }
 
  private:
-  // How much of each pixel stays, 0..1: 0 wherever the mask is black, then a slope.
+  // Sets the weight of each pixel, 0..1: 0 where the mask is black, then a slope.
   void MakeWeights(const cv::Mat& mask) {
     const int fade = 2 * std::max(2, static_cast<int>(mask.cols * kFadeFraction)) + 1;
     cv::Mat used = mask > kHalf;
@@ -99,7 +99,7 @@ class WindowSource : public FrameSource {
   void Fade(cv::Mat* image) const {
     cv::Mat values;
     image->convertTo(values, CV_32F);
-    // The mean of what is used nearby; far from all that, of the whole.
+    // The mean of the used pixels nearby; far from them, the mean of all used pixels.
     const double whole = cv::sum(values.mul(weights_))[0] / cv::sum(weights_)[0];
     cv::Mat level;
     Smooth(values.mul(weights_), &level);
@@ -117,7 +117,7 @@ class WindowSource : public FrameSource {
   std::unique_ptr<FrameSource> source_;
   ViewWindow window_;
   cv::Mat weights_;
-  // How much near each pixel is used, and kFarWeight.
+  // Sum of the weights near each pixel, plus kFarWeight.
   cv::Mat nearby_;
 };
 
@@ -127,7 +127,7 @@ absl::StatusOr<cv::Mat> ReadMask(const std::string& path) {
   if (!mask.ok()) return Within(path, mask.status());
   const cv::Mat used = *mask > kHalf;
   if (cv::countNonZero(used) == 0) {
-    return absl::InvalidArgumentError(absl::StrCat(path, " is black: it leaves nothing to see"));
+    return absl::InvalidArgumentError(absl::StrCat(path, " is black: no pixel would be used"));
   }
   return *std::move(mask);
 }

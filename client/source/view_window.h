@@ -1,5 +1,5 @@
-// The part of a camera's images that is used: without the robot's own bonnet, arm or timestamp,
-// which would be taken for things that do not move.
+// The used part of a camera's images: without the robot's own bonnet, arm or timestamp, which never
+// move in the image.
 #ifndef CLIENT_SOURCE_VIEW_WINDOW_H_
 #define CLIENT_SOURCE_VIEW_WINDOW_H_
 
@@ -25,7 +25,8 @@ absl::StatusOr<CropRectangle> ParseCrop(const std::string& text);
 
 struct ViewWindow {
   std::optional<CropRectangle> crop;
-  // An image file of the size of the whole images; what is brighter than half is used. Empty: all.
+  // An image file of the size of the whole images; pixels brighter than half are used. Empty: all
+  // are used.
   std::string mask;
 
   bool whole() const { return !crop && mask.empty(); }
@@ -34,8 +35,8 @@ struct ViewWindow {
 // The same camera for the part: its image begins at the rectangle's corner.
 Camera CropCamera(Camera camera, const ViewWindow& window);
 
-// Grey frames of `source`, cropped. What the mask leaves out fades into the mean around it, so that
-// neither it nor its edge has anything to follow. NOT_FOUND, INVALID_ARGUMENT: the mask cannot be
+// Grey frames of `source`, cropped. Masked parts fade into the mean of their surroundings, so that
+// neither they nor their edges can be tracked. NOT_FOUND, INVALID_ARGUMENT: the mask cannot be
 // read. Frames of a size that does not fit have a fault.
 absl::StatusOr<std::unique_ptr<FrameSource>> OpenWindow(std::unique_ptr<FrameSource> source,
                                                         const ViewWindow& window);

@@ -6,7 +6,7 @@
 
 namespace homing {
 
-// Asked between the stages of a computation.
+// A computation calls IsCancelled between its stages, on its own thread.
 class Cancellation {
  public:
   virtual ~Cancellation() = default;
@@ -19,7 +19,7 @@ class Cancellation {
   Cancellation& operator=(const Cancellation&) = default;
 };
 
-// CANCELLED if nobody waits any more. Null: somebody always waits.
+// CANCELLED if nobody waits for the result any more. Null: never cancelled.
 inline absl::Status CheckAwaited(const Cancellation* cancellation) {
   return cancellation != nullptr && cancellation->IsCancelled()
              ? absl::CancelledError("the caller does not wait for the result any more")

@@ -13,8 +13,8 @@
 
 namespace homing {
 
-// All bytes of the file. The code is that of the system's error; the message names the path and the
-// reason.
+// All bytes of the file. The error's code follows errno (NOT_FOUND, PERMISSION_DENIED and so on);
+// the message names the path and the reason.
 inline absl::StatusOr<std::string> ReadFile(const std::string& path) {
   errno = 0;
   const std::ifstream file(path, std::ios::binary);

@@ -22,8 +22,6 @@
 // On a function: the caller holds the mutex.
 #define HOMING_REQUIRES(...) HOMING_THREAD_ATTRIBUTE(requires_capability(__VA_ARGS__))
 #define HOMING_REQUIRES_SHARED(...) HOMING_THREAD_ATTRIBUTE(requires_shared_capability(__VA_ARGS__))
-// On a function: the caller does not hold the mutex.
-#define HOMING_EXCLUDES(...) HOMING_THREAD_ATTRIBUTE(locks_excluded(__VA_ARGS__))
 // On a function: locks or unlocks the mutex.
 #define HOMING_ACQUIRE(...) HOMING_THREAD_ATTRIBUTE(acquire_capability(__VA_ARGS__))
 #define HOMING_ACQUIRE_SHARED(...) HOMING_THREAD_ATTRIBUTE(acquire_shared_capability(__VA_ARGS__))
@@ -92,7 +90,7 @@ class HOMING_THREAD_ATTRIBUTE(scoped_lockable) MutexLock {
   bool held_ = true;
 };
 
-// Waits for a change of what a mutex guards. Wakes up without one now and then: wait in a loop,
+// Waits for a change of what a mutex guards. It may wake up without a change: wait in a loop,
 // `while (!condition) changed.Wait(mutex);`.
 class ConditionVariable {
  public:

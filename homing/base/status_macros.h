@@ -1,4 +1,4 @@
-// Two macros for absl::Status flow; this Debian's abseil has none.
+// Two macros that return errors of absl::Status; the abseil of Debian 12 has none.
 #ifndef HOMING_BASE_STATUS_MACROS_H_
 #define HOMING_BASE_STATUS_MACROS_H_
 

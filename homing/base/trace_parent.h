@@ -11,9 +11,9 @@ namespace homing {
 struct TraceParent {
   // 32 lower-case hexadecimal digits, not all 0.
   std::string trace_id;
-  // 16, of the caller's own span.
+  // 16 such digits, not all 0: the id of the caller's span.
   std::string span_id;
-  // Two; the last bit is set if the caller records the trace.
+  // Two such digits; the last bit is set if the caller records the trace.
   std::string flags = "00";
 };
 

@@ -11,7 +11,7 @@
 
 namespace homing {
 
-// Pixels.
+// Pixels. Focal lengths in (0, 1e6], principal point in [-1e6, 1e6].
 struct Intrinsics {
   double focal_x = 0;
   double focal_y = 0;
@@ -21,15 +21,16 @@ struct Intrinsics {
 };
 
 struct Camera {
-  // Pixels; 0: not known yet (taken from the first observation).
+  // Pixels, [0, 65536]; both 0: not known yet (taken from the first observation).
   int width = 0;
   int height = 0;
   // Absent: everything works in raw pixels, and there must be no distortion and no yaw.
   std::optional<Intrinsics> intrinsics;
-  // k1, k2, p1, p2, k3, k4, k5, k6; if fisheye k1, k2, k3, k4 and zeros.
+  // k1, k2, p1, p2, k3, k4, k5, k6; if fisheye k1, k2, k3, k4 and zeros. Each in [-100, 100].
+  // Models: undistortion.h.
   std::array<double, 8> distortion{};
   bool fisheye = false;
-  // Positive clockwise seen from above, (-pi/2, pi/2).
+  // Rad, positive clockwise seen from above, (-pi/2, pi/2).
   double yaw_rad = 0;
   friend bool operator==(const Camera&, const Camera&) = default;
 };

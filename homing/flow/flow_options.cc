@@ -1,3 +1,4 @@
+// Validates FlowOptions of flow_tracker.h.
 #include <cmath>
 #include <string>
 

@@ -36,7 +36,7 @@ constexpr double kConvergencePx = 0.01;
 // Least eigenvalue of A^T A for a solution (eqs 3 to 5), OpenCV's units; corners have far more.
 constexpr double kSingular = 1e-4;
 
-// Points tracked between two looks at the cancellation.
+// Points tracked between two checks for cancellation.
 constexpr std::size_t kPointsAtATime = 256;
 
 // Into `frame`, whose images of the same size are used again.
@@ -57,7 +57,7 @@ absl::Status Prepare(const cv::Mat& gray, const FlowOptions& options,
   return absl::OkStatus();
 }
 
-// Where points of one frame are in another, and which were found.
+// The places of points in another frame, and whether they were found.
 struct Tracks {
   std::vector<cv::Point2f> ends;
   std::vector<unsigned char> found;
@@ -79,7 +79,7 @@ absl::StatusOr<Tracks> TrackPoints(const TrackedFrame& from, const TrackedFrame&
             static_cast<std::ptrdiff_t>(std::min(points.size(), first + kPointsAtATime)));
     std::vector<cv::Point2f> ends;
     std::vector<unsigned char> found;
-    // No error is asked for: it costs as much as an iteration.
+    // The tracking error is not requested: it costs as much as an iteration.
     cv::calcOpticalFlowPyrLK(from.pyramid, to.pyramid, some, ends, found, cv::noArray(), window,
                              options.pyramid_levels, end, 0, kSingular);
     tracks.ends.insert(tracks.ends.end(), ends.begin(), ends.end());
@@ -96,7 +96,7 @@ FlowVector SourceVector(const WorkingScale& scale, const cv::Point2f& start,
           static_cast<float>(to.y)};
 }
 
-// Both ends on the image's area; false for anything non-finite.
+// True if both ends lie in the image; false if one is not finite.
 bool IsInside(const FlowVector& v, const cv::Size& size) {
   const auto inside = [](float p, int side) { return p >= -0.5F && p < float(side) - 0.5F; };
   return inside(v.start_x, size.width) && inside(v.start_y, size.height) &&

@@ -27,8 +27,8 @@ bool Agree(double a, double b) {
          std::abs(b) <= kMaxPanRatio * std::abs(a);
 }
 
-// One camera cannot compare: a flat wall passed sideways moves much as if the camera turned, but
-// for the vertical components.
+// A single camera needs the vertical components: without them a flat wall passed sideways moves
+// nearly as if the camera turned.
 bool IsTurning(const RotationFit& fit) {
   return IsExplained(fit) && Agree(fit.pan, fit.vertical_pan) &&
          std::abs(fit.vertical_pan) >= kMinSignificance * fit.vertical_pan_error;

@@ -1,4 +1,5 @@
-// Decides from the flow alone whether the camera stands, turns on the spot or moves.
+// Decides from the flow alone whether the camera stands, turns on the spot or moves. Added to the
+// paper.
 #ifndef HOMING_FLOW_MOTION_H_
 #define HOMING_FLOW_MOTION_H_
 

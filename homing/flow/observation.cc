@@ -14,10 +14,8 @@
 namespace homing {
 namespace {
 
-std::string NameOf(std::size_t side) { return side == 0 ? "left" : "right"; }
-
 absl::Status WithSide(const absl::Status& status, std::size_t side) {
-  return Within(NameOf(side), status);
+  return Within(kCameraNames[side], status);
 }
 
 // True if finite and at most one image size outside the image.
@@ -25,7 +23,7 @@ bool IsPlausible(float p, int side) {
   return (p >= -static_cast<float>(side)) & (p <= 2 * static_cast<float>(side));
 }
 
-// Checks all vectors, without a branch a vector.
+// Checks all vectors with no branch for each vector.
 HOMING_VECTOR_CLONES
 bool ArePlausible(const FlowField& field) {
   std::int32_t beyond = 0;
@@ -141,7 +139,7 @@ absl::StatusOr<ObservedFlow> ObservationFlow::Compute(const Observation& observa
   if (checked[0].size.area() == 0 && checked[1].size.area() == 0) {
     return FieldError("left", "must be set unless right is");
   }
-  // Nothing below fails, unless it is cancelled.
+  // From here on nothing fails, except by cancellation.
   for (std::size_t side = 0; side < 2; ++side) {
     if (checked[side].size.area() != 0) sizes_[side] = checked[side].size;
   }

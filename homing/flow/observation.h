@@ -18,6 +18,9 @@ namespace homing {
 // A camera of the robot, or a side of the route as the outbound robot met it.
 enum class Side { kLeft = 0, kRight = 1 };
 
+// Names of the cameras, indexed by Side.
+inline constexpr std::array<const char*, 2> kCameraNames = {"left", "right"};
+
 // The input of one camera: nothing, a frame, or the flow from an earlier frame to this one.
 using CameraView = std::variant<std::monostate, Frame, FlowField>;
 

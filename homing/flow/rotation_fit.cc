@@ -120,7 +120,7 @@ void FadingWeights(const float* squares, std::size_t size, double scale, double*
   }
 }
 
-// Of the weighted normal equations.
+// Indices of the sums of the weighted normal equations.
 enum Sum { kAA, kAB, kAC, kBB, kBC, kCC, kAF, kBF, kCF, kSums };
 
 HOMING_VECTOR_CLONES
@@ -165,7 +165,7 @@ Rotation SolveWeighted(const System& system, const std::vector<double>& weights)
 // A rotation, its residuals, and the weights for the next iteration.
 struct Fit {
   Rotation rotation;
-  // One a vector.
+  // One entry a vector.
   std::vector<float> squares;
   double median_square = 0;
   std::vector<double> weights;

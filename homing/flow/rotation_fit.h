@@ -16,9 +16,9 @@ struct RotationFit {
   // motion does not. Both are 0 when the rotation explains less than half of the vectors.
   double vertical_pan = 0;
   double vertical_pan_error = 0;
-  // Share of the vectors that the rotation explains. [0, 1].
+  // Fraction of the vectors that the rotation explains. [0, 1].
   double explained = 0;
-  // Pixels.
+  // Median residual and median flow length of the vectors, pixels.
   double median_residual = 0;
   double median_length = 0;
 };

@@ -13,7 +13,7 @@ namespace homing {
 // k1, k2, p1, p2, k3, k4, k5, k6; for a fisheye lens k1, k2, k3, k4 and zeros.
 using Distortion = std::array<double, 8>;
 
-// Where the lens shows the ray (x, y, 1). Units of the focal length from the principal point.
+// The point at which the lens shows the ray (x, y, 1), in focal lengths from the principal point.
 Eigen::Vector2d Distort(const Eigen::Vector2d& ray, const Distortion& distortion);
 
 // The ray that the lens shows at this point; nothing where the model has no inverse.

@@ -43,7 +43,7 @@ absl::StatusOr<cv::Mat> DecodeGray(const Frame& frame, const DecodeLimits& limit
   } catch (const cv::Exception& error) {
     return absl::ResourceExhaustedError(absl::StrCat("frame could not be decoded: ", error.err));
   } catch (const std::bad_alloc&) {
-    return absl::ResourceExhaustedError("no memory to decode the frame");
+    return absl::ResourceExhaustedError("out of memory while decoding the frame");
   }
 }
 

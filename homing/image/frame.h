@@ -28,7 +28,8 @@ struct DecodeLimits {
   int min_side_px = 16;
   int max_side_px = 8192;
   std::int64_t max_pixels = 16 * 1024 * 1024;
-  // Ends decoding, and the tracking that follows, early. Must outlive what is given these limits.
+  // Ends decoding, and the tracking that follows, early. It must outlive every object that receives
+  // these limits.
   const Cancellation* cancellation = nullptr;
 };
 

@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <string>
 
-// After <cstdio>, which it needs.
+// jpeglib.h needs <cstdio> before it.
 #include <jerror.h>
 #include <jpeglib.h>
 
@@ -18,8 +18,8 @@
 namespace homing {
 namespace {
 
-// A progressive file of more scans than this is made to waste time; so is a large one of fewer:
-// each scan visits all pixels. Cameras write about ten.
+// Most scans of a progressive file; cameras write about ten. Each scan visits all pixels, so a file
+// with more scans is an attack on processing time. For large files the limit on work is lower.
 constexpr int kMaxScans = 500;
 constexpr std::int64_t kMaxPixelsOfScans = std::int64_t{1} << 29;
 

@@ -85,7 +85,7 @@ int ExifOrientation(std::string_view file) {
 cv::Mat TurnUpright(const cv::Mat& image, int orientation) {
   if (orientation < 2 || orientation > 8) return image;
   cv::Mat upright = image;
-  // 5 to 8 are mirrored along the diagonal before anything else.
+  // Orientations 5 to 8 are mirrored along the diagonal first.
   if (orientation >= 5) cv::transpose(image, upright);
   constexpr int kLeftRight = 1;
   constexpr int kUpDown = 0;

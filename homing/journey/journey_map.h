@@ -39,13 +39,13 @@ struct RecordedFingerprint {
   friend bool operator==(const RecordedFingerprint&, const RecordedFingerprint&) = default;
 };
 
-// JourneyStep::sequence where it is not known: one after that of the step before; 1 for the first
+// Stands for an unknown JourneyStep::sequence: that of the previous step plus 1; 1 for the first
 // step.
 inline constexpr std::int64_t kNextSequence = -1;
 
 // One step of a journey. It has no fingerprints if the robot turned or nothing was seen.
 struct JourneyStep {
-  // From 0, home first.
+  // Number of the step, from 0 at home.
   std::int64_t step = 0;
   Motion motion = Motion::kMoving;
   // Left before right, low x before high x; at most four.
@@ -68,7 +68,7 @@ absl::Status CheckStepSequence(const JourneyStep& step, std::int64_t least);
 // damaged map claims.
 inline constexpr std::int64_t kMostSteps = 20'000'000;
 
-// Not thread-safe: the holder locks. 16 bytes a fingerprint, 16 a step, 96 a profile.
+// Not thread-safe: its owner must lock it. Takes 16 bytes a fingerprint, 16 a step, 166 a profile.
 class JourneyMap {
  public:
   JourneyMap() = default;

@@ -5,9 +5,6 @@
 #include "absl/strings/str_cat.h"
 #include "homing/base/field_error.h"
 #include "homing/base/status_macros.h"
-#include "homing/flow/motion.h"
-#include "homing/journey/camera_pair.h"
-#include "homing/landmark/landmark_finder.h"
 
 namespace homing {
 namespace {
@@ -88,23 +85,23 @@ absl::StatusOr<std::optional<JourneyStep>> JourneyRecorder::Record(const Observa
   const std::int64_t made_by = FrameOf(observation, kind);
   HOMING_RETURN_IF_ERROR(CheckGrows(made_by, kind));
   // II-B, equations (1) to (5): corners, and their flow since the reference frame.
-  HOMING_ASSIGN_OR_RETURN(ObservedFlow flow, flow_.Compute(observation, settings_.cameras));
+  HOMING_ASSIGN_OR_RETURN(const ObservedFlow flow, flow_.Compute(observation, settings_.cameras));
   flow_.FillSizes(settings_.cameras);
   kind_ = kind;
   next_observation_ = observation.sequence + 1;
   if (!flow.makes_step || made_by <= last_sequence_) {
     return std::nullopt;
   }
-  // Added to the paper: the flow that ideal cameras, square to the direction of travel, would see.
-  flow = Rectify(flow, settings_.cameras);
+  // III, Fig. 4, equations (11), (12): landmarks. A recording defines the sides of its route.
+  const SeenStep seen = SeeLandmarks(flow, settings_.cameras, Travel::kSame, settings_.landmark);
   JourneyStep step{.step = next_step_,
-                   .motion = ClassifyMotion(flow, settings_.cameras),
+                   .motion = seen.motion,
                    .fingerprints = {},
                    .profiles = {},
                    .sequence = made_by};
   if (step.motion == Motion::kMoving) {
     for (const Side side : {Side::kLeft, Side::kRight}) {
-      AddLandmarks(side, flow.fields[static_cast<std::size_t>(side)], step);
+      AddLandmarks(side, seen, step);
     }
   }
   ++next_step_;
@@ -112,19 +109,19 @@ absl::StatusOr<std::optional<JourneyStep>> JourneyRecorder::Record(const Observa
   return step;
 }
 
-void JourneyRecorder::AddLandmarks(Side side, const std::optional<FlowField>& field,
-                                   JourneyStep& step) {
+void JourneyRecorder::AddLandmarks(Side side, const SeenStep& seen, JourneyStep& step) {
+  const auto index = static_cast<std::size_t>(side);
+  const std::optional<FlowField>& field = seen.flow.fields[index];
   if (!field) {
     return;
   }
   // Added to the paper: where the vectors are, and how far away.
-  step.profiles[static_cast<std::size_t>(side)] = MakeFlowProfile(*field);
-  // III, Fig. 4, equations (11), (12): at most two landmarks a camera.
-  const std::vector<SeenLandmark> seen = FindLandmarks(*field, settings_.landmark);
+  step.profiles[index] = MakeFlowProfile(*field);
   // III: numbered along the journey.
-  const std::vector<Fingerprint> numbered = tracker_.Associate(step.step, side, seen);
+  const std::vector<SeenLandmark>& landmarks = seen.landmarks[index];
+  const std::vector<Fingerprint> numbered = tracker_.Associate(step.step, side, landmarks);
   for (std::size_t i = 0; i < numbered.size(); ++i) {
-    step.fingerprints.push_back({side, numbered[i], seen[i].spread});
+    step.fingerprints.push_back({side, numbered[i], landmarks[i].spread});
   }
 }
 

@@ -10,6 +10,7 @@
 #include "homing/flow/observation.h"
 #include "homing/journey/journey_map.h"
 #include "homing/journey/journey_settings.h"
+#include "homing/journey/see_landmarks.h"
 #include "homing/landmark/landmark_tracker.h"
 
 namespace homing {
@@ -29,15 +30,15 @@ struct JourneyTail {
   std::int32_t landmark_count = 0;
   // JourneyStep::sequence of the last step; -1: there is no step.
   std::int64_t last_sequence = -1;
-  // From FirstTailStep on, in order; those without fingerprints may be left out. Only their numbers
-  // and fingerprints are used.
+  // The steps from FirstTailStep on, in order; steps without fingerprints may be left out. Only
+  // numbers and fingerprints are used.
   std::vector<JourneyStep> steps;
 };
 
 // The first step that the tracker still needs after `step_count` steps.
 std::int64_t FirstTailStep(const JourneySettings& settings, std::int64_t step_count);
 
-// One stream of one journey. Not thread-safe.
+// Records one stream of one journey. Not thread-safe.
 class JourneyRecorder {
  public:
   // REQUIRES: Validate(settings).ok().
@@ -64,8 +65,8 @@ class JourneyRecorder {
  private:
   absl::Status CheckKind(InputKind kind) const;
   absl::Status CheckGrows(std::int64_t made_by, InputKind kind) const;
-  // Adds the numbered landmarks of one camera's field to the step.
-  void AddLandmarks(Side side, const std::optional<FlowField>& field, JourneyStep& step);
+  // Adds the profile and the numbered landmarks of one camera to the step.
+  void AddLandmarks(Side side, const SeenStep& seen, JourneyStep& step);
 
   JourneySettings settings_;
   ObservationFlow flow_;

@@ -8,7 +8,7 @@
 
 namespace homing {
 
-// A journey to search; does not own.
+// A journey to search. It owns neither the name nor the map; both must outlive it.
 struct JourneyRef {
   const std::string* name = nullptr;
   const JourneyMap* map = nullptr;

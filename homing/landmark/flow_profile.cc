@@ -11,11 +11,11 @@
 namespace homing {
 namespace {
 
-// Shorter flow is noise: it gives no more parallax than this. Pixels.
+// Shorter flow is noise and counts as this long. Pixels.
 constexpr double kLeastFlowPx = 0.05;
 // No object is taken to be nearer to the camera than this, in distances of the mean flow.
 constexpr float kLeastDepth = 0.3F;
-// A parallax code needs vectors of at least this weight in its two cells.
+// Least weight of the vectors in two cells for a parallax code.
 constexpr float kLeastWeight = 0.25F;
 
 constexpr int kColumns = FlowProfile::kColumns;
@@ -39,7 +39,7 @@ inline float Log2(float value) {
 // Sums over the vectors around each cell, bilinear weights.
 struct CellSums {
   std::array<float, FlowProfile::kCells> weight{};
-  // Of weight times log2 of the flow.
+  // Sums of weight times log2 of the flow.
   std::array<float, FlowProfile::kCells> log_flow{};
   float vectors = 0;
   float all_log_flow = 0;
@@ -84,7 +84,7 @@ std::uint8_t ParallaxCode(float octaves) {
       std::clamp(code, 1.0F, static_cast<float>(FlowProfile::kMaxCode)));
 }
 
-// Where each vector's midpoint lies in the magnified image, and how long it is there.
+// The midpoints of the vectors in the magnified image, and their lengths there.
 struct MagnifiedView {
   float magnification = 1;
   float mean_log_flow = 0;
@@ -94,8 +94,8 @@ void Magnify(const MagnifiedView& view, std::size_t size, float* __restrict x, f
              float* __restrict log_flow) {
   const float scale = 1 - view.magnification;
   for (std::size_t i = 0; i < size; ++i) {
-    // How near the object is to the path, relative to one of the mean flow; 2^d by three terms is
-    // exact enough for a factor that is clamped.
+    // Nearness of the object to the path, relative to an object with the mean flow. Three terms of
+    // 2^d are exact enough for a factor that is clamped.
     const float d = log_flow[i] - view.mean_log_flow;
     const float e = d * 0.6931472F * 0.25F;
     const float quarter = 1 + e * (1 + e * (0.5F + e * 0.1666667F));

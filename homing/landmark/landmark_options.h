@@ -14,12 +14,12 @@ struct LandmarkOptions {
   int min_vectors = 8;
   // Bins of the histogram of midpoints over the image width. [4, 256].
   int histogram_bins = 16;
-  // A valley divides if its bin is at most this share of the lower peak. (0, 1].
+  // A valley divides if its bin is at most this fraction of the lower peak. (0, 1].
   double max_valley_ratio = 0.5;
-  // The lower peak's side holds at least this share of the vectors. (0, 0.5].
+  // The lower peak's side holds at least this fraction of the vectors. (0, 0.5].
   double min_peak_share = 0.15;
-  // A landmark is the same at the next step if its mean, moved as the flow says, is this near. (0,
-  // 500].
+  // A landmark at the next step is the same if its mean is this near to the place that the flow
+  // predicts. (0, 500].
   double max_track_distance_px = 20;
   // Steps that a landmark may be missing and still be the same. [0, 20].
   int max_track_gap_steps = 2;

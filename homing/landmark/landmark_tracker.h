@@ -1,5 +1,5 @@
 // Numbers landmarks along a journey: a landmark seen at one step and one seen at a later step are
-// the same if its mean moved as the flow says. Source: paper III (counting of landmarks).
+// the same if its mean moved as the flow predicts. Source: paper III (counting of landmarks).
 #ifndef HOMING_LANDMARK_LANDMARK_TRACKER_H_
 #define HOMING_LANDMARK_LANDMARK_TRACKER_H_
 
@@ -15,7 +15,8 @@
 namespace homing {
 
 // Its state is a function of the fingerprints of the last max_track_gap_steps + 1 steps and of the
-// number of landmarks so far, all of which are durable: a recording resumes exactly.
+// number of landmarks so far, all of which are durable: a recording resumes exactly. Not
+// thread-safe.
 class LandmarkTracker {
  public:
   // REQUIRES: Validate(options).ok().

@@ -10,7 +10,7 @@
 namespace homing {
 namespace {
 
-// Keeps vectors at the very middle from dividing by nothing; image widths squared.
+// Avoids a division by zero for vectors at the median midpoint. Image widths squared.
 constexpr float kLeastSquare = 1e-4F;
 
 std::int16_t SignedCode(double px) {
@@ -25,7 +25,7 @@ std::uint8_t LengthCode(double px) {
   return static_cast<std::uint8_t>(std::clamp(code, 1.0, 255.0));
 }
 
-// Of the finite vectors: displacement, and midpoint in image widths.
+// Displacements of the finite vectors, pixels, and their midpoints in image widths.
 struct Motions {
   std::vector<float> x;
   std::vector<float> y;

@@ -12,17 +12,18 @@ namespace homing {
 namespace {
 
 constexpr std::int64_t kStepsTried = 100;
-constexpr double kTold = 0.9;
-// Places tried times steps of the route.
+constexpr double kKnown = 0.9;
+// Most places tried times steps of the route.
 constexpr std::int64_t kMostComparisons = 2'000'000;
-// Twins are told after so many steps.
-constexpr std::int64_t kTwinSteps = 5;
+// Steps after which aliased places are determined.
+constexpr std::int64_t kAliasedSteps = 5;
 constexpr double kLeastConfusion = 0.1;
-constexpr std::size_t kMostTwins = 20;
-// Of one observation: neighbouring ones show nearly the same.
+constexpr std::size_t kMostAliased = 20;
+// Weight of one observation: neighbouring ones show nearly the same.
 constexpr double kWeight = 0.3;
 
-// A robot that starts at one place: how probable the others are beside it, the more it sees.
+// A robot that starts at one place: the probability of the other places as it sees more and more
+// steps.
 class Drive {
  public:
   Drive(const RouteProfiles& profiles, std::int64_t step_count, std::int64_t start)
@@ -48,15 +49,15 @@ class Drive {
     return here / (here + elsewhere);
   }
 
-  Twins MostConfused(std::int64_t tolerance) const {
-    Twins twins{.first_step = start_, .second_step = start_, .confusion = 0};
+  AliasedPlaces MostConfused(std::int64_t tolerance) const {
+    AliasedPlaces aliased{.first_step = start_, .second_step = start_, .confusion = 0};
     for (std::int64_t s = 0; s < std::ssize(along_); ++s) {
-      if (std::abs(s - start_) > tolerance && Confusion(s) > twins.confusion) {
-        twins.second_step = s;
-        twins.confusion = Confusion(s);
+      if (std::abs(s - start_) > tolerance && Confusion(s) > aliased.confusion) {
+        aliased.second_step = s;
+        aliased.confusion = Confusion(s);
       }
     }
-    return twins;
+    return aliased;
   }
 
  private:
@@ -76,7 +77,7 @@ class Drive {
     const DistanceScale scale = ScaleOf(distances_);
     const std::int64_t beside = at + 1 < count ? at + 1 : at - 1;
     const double expected = Ratio(scale, std::max<std::int64_t>(beside, 0));
-    // What would lie beyond the ends is no place.
+    // Positions beyond the ends are no places.
     for (std::int64_t s = 0; s < count; ++s) {
       const auto i = static_cast<std::size_t>(s);
       along_[i] *= s + seen < count ? Ratio(scale, s + seen) / expected : 0;
@@ -91,13 +92,13 @@ class Drive {
 
   const RouteProfiles* profiles_;
   std::int64_t start_;
-  // By step where the robot may have started, driving as outbound or the other way.
+  // Likelihood by step where the robot may have started, if it drives as outbound or the other way.
   std::vector<double> along_;
   std::vector<double> against_;
   std::vector<std::uint16_t> distances_;
 };
 
-bool Near(const Twins& a, const Twins& b, std::int64_t tolerance) {
+bool Near(const AliasedPlaces& a, const AliasedPlaces& b, std::int64_t tolerance) {
   const auto within = [tolerance](std::int64_t s, std::int64_t t) {
     return std::abs(s - t) <= tolerance;
   };
@@ -106,18 +107,18 @@ bool Near(const Twins& a, const Twins& b, std::int64_t tolerance) {
 }
 
 // Each pair once.
-std::vector<Twins> Distinct(std::vector<Twins> all, std::int64_t tolerance) {
-  std::ranges::stable_sort(all, std::ranges::greater{}, &Twins::confusion);
-  std::vector<Twins> distinct;
-  for (const Twins& twins : all) {
+std::vector<AliasedPlaces> Distinct(std::vector<AliasedPlaces> all, std::int64_t tolerance) {
+  std::ranges::stable_sort(all, std::ranges::greater{}, &AliasedPlaces::confusion);
+  std::vector<AliasedPlaces> distinct;
+  for (const AliasedPlaces& aliased : all) {
     const bool known = std::ranges::any_of(
-        distinct, [&](const Twins& other) { return Near(twins, other, tolerance); });
-    if (!known && distinct.size() < kMostTwins) distinct.push_back(twins);
+        distinct, [&](const AliasedPlaces& other) { return Near(aliased, other, tolerance); });
+    if (!known && distinct.size() < kMostAliased) distinct.push_back(aliased);
   }
   return distinct;
 }
 
-// `steps` sorted; kStepsTried + 1 for a place that is never told.
+// `steps` is sorted; kStepsTried + 1 stands for a place that is never known.
 std::optional<std::int64_t> Quantile(const std::vector<std::int64_t>& steps, double share) {
   const auto at = static_cast<std::size_t>(std::ceil(share * static_cast<double>(steps.size())));
   const std::int64_t value = steps[std::max<std::size_t>(at, 1) - 1];
@@ -136,20 +137,20 @@ Aliasing AnalyzeAliasing(RouteProfiles profiles, std::int64_t tolerance_steps,
   }
   const std::int64_t stride = count * count / kMostComparisons + 1;
   std::vector<std::int64_t> steps;
-  std::vector<Twins> twins;
+  std::vector<AliasedPlaces> aliased;
   std::int64_t indistinct = 0;
   const auto is_awaited = [cancellation] { return CheckAwaited(cancellation).ok(); };
   for (std::int64_t start = 0; start < count && is_awaited(); start += stride) {
     Drive drive(profiles, count, start);
-    // One that runs into the end of the route has seen all there is.
+    // At the end of the route there is nothing more to see.
     const std::int64_t most = std::min(kStepsTried, count - start);
     std::int64_t needed = kStepsTried + 1;
     for (std::int64_t seen = 0; seen < most && needed > kStepsTried && is_awaited(); ++seen) {
       drive.See(seen);
-      if (drive.Certainty(tolerance_steps) >= kTold) needed = seen + 1;
-      if (seen + 1 == kTwinSteps || (needed <= kStepsTried && seen + 1 < kTwinSteps)) {
-        const Twins found = drive.MostConfused(tolerance_steps);
-        if (found.confusion >= kLeastConfusion) twins.push_back(found);
+      if (drive.Certainty(tolerance_steps) >= kKnown) needed = seen + 1;
+      if (seen + 1 == kAliasedSteps || (needed <= kStepsTried && seen + 1 < kAliasedSteps)) {
+        const AliasedPlaces found = drive.MostConfused(tolerance_steps);
+        if (found.confusion >= kLeastConfusion) aliased.push_back(found);
       }
     }
     if (needed > kStepsTried && most < kStepsTried) continue;
@@ -164,7 +165,7 @@ Aliasing AnalyzeAliasing(RouteProfiles profiles, std::int64_t tolerance_steps,
     aliasing.most_steps = Quantile(steps, 0.95);
     aliasing.indistinct_share = static_cast<double>(indistinct) / static_cast<double>(steps.size());
   }
-  aliasing.twins = Distinct(std::move(twins), tolerance_steps);
+  aliasing.aliased_places = Distinct(std::move(aliased), tolerance_steps);
   return aliasing;
 }
 

@@ -1,4 +1,4 @@
-// Which way the robot drives along the route, by the sign of the flow (METHOD 7).
+// The direction in which the robot drives along the route, by the sign of the flow (METHOD 7).
 #ifndef HOMING_LOCALIZATION_DIRECTION_EVIDENCE_H_
 #define HOMING_LOCALIZATION_DIRECTION_EVIDENCE_H_
 
@@ -9,9 +9,9 @@
 
 namespace homing {
 
-// Factors of the motion towards home (0) and away from it (1), positive; both 1 if no camera tells.
-// Two opposite cameras that turn say opposite things, which cancel. `weight`: of the observation,
-// (0, 1].
+// Factors of the motion towards home (0) and away from it (1), positive; both 1 without evidence.
+// In a turn two opposite cameras contradict each other, and their factors cancel. `weight`: that of
+// the observation, (0, 1].
 std::array<double, 2> DirectionFactors(const RouteScale& route, const SeenProfiles& profiles,
                                        double weight);
 

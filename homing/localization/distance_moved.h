@@ -1,5 +1,5 @@
-// How far the robot moves from observation to observation, by the odometer alone: what its evidence
-// is weighed by.
+// The distance that the robot moves between observations, by the odometer alone. It determines the
+// weight of an observation's evidence.
 #ifndef HOMING_LOCALIZATION_DISTANCE_MOVED_H_
 #define HOMING_LOCALIZATION_DISTANCE_MOVED_H_
 
@@ -15,24 +15,24 @@
 
 namespace homing {
 
-// What an observation may say that the ones before have not, after so many steps on a map with this
-// correlation length. (0, 1].
+// Weight of an observation that is `moved` steps after the previous one, on a map with this
+// correlation length: the fraction of it that is new. (0, 1].
 double EvidenceWeight(double moved, double correlation_steps);
 
-// The ratio of one observation scatters, and the speeds that the filter believes in have a prior.
-// So this compares the readings of the last few observations with those of the map about where
-// the robot may be. Not thread-safe.
+// The ratio of a single observation scatters, and the filter's speeds contain a prior. So this
+// compares the readings of the last few observations with those of the map around the robot's
+// possible places. Not thread-safe.
 class DistanceMoved {
  public:
-  // Steps of this observation, -8 to 8. Negative: the other way past what is seen. `masses`: by
-  // journey, where the robot may be. None without a reading.
+  // Steps moved with this observation, -8 to 8. Negative: the scene passes in the other direction.
+  // `masses`: by journey, the robot's possible places. None without a reading.
   std::optional<double> Update(std::span<const RouteScale> routes, std::span<const StepMass> masses,
                                const SeenProfiles& profiles);
 
  private:
-  // By journey and side.
+  // Mean reading of the last observations, by journey and side.
   std::vector<std::array<std::optional<double>, 2>> usual_;
-  // As it has been lately, -1 to 1.
+  // Mean direction of the last observations, -1 to 1.
   double way_ = 0;
 };
 

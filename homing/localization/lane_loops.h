@@ -1,4 +1,5 @@
-// The loops over steps of RouteBelief.
+// The inner loops of RouteBelief over steps. A lane holds the masses of one motion state (direction
+// and speed), by step.
 #ifndef HOMING_LOCALIZATION_LANE_LOOPS_H_
 #define HOMING_LOCALIZATION_LANE_LOOPS_H_
 
@@ -15,7 +16,7 @@ struct Displacement {
   std::array<float, 4> probabilities{};
 };
 
-// What a motion state keeps of itself and takes from others, an observation.
+// Fractions that a motion state keeps and that it receives from others, an observation.
 struct LaneMix {
   float stay = 1;
   float from_beside = 0;

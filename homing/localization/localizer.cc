@@ -3,14 +3,10 @@
 #include "absl/strings/str_cat.h"
 #include "homing/base/range_check.h"
 #include "homing/base/status_macros.h"
-#include "homing/flow/motion.h"
 #include "homing/flow/rotation_fit.h"
-#include "homing/journey/camera_pair.h"
 
 namespace homing {
 namespace {
-
-constexpr std::array<const char*, 2> kCameraNames{"left", "right"};
 
 absl::Status CheckSize(std::size_t index, const Camera& camera, const Camera& recorded) {
   if (camera.width == 0 || recorded.width == 0 ||
@@ -22,7 +18,7 @@ absl::Status CheckSize(std::size_t index, const Camera& camera, const Camera& re
       recorded.width, "x", recorded.height, " as recorded on the side of the route that it sees"));
 }
 
-// Rad to the left; nothing unless both cameras see it.
+// The turn, rad to the left; nothing unless both cameras have enough flow.
 std::optional<double> TurnOnSpot(const ObservedFlow& flow, const std::array<Camera, 2>& cameras) {
   double turn = 0;
   for (std::size_t camera = 0; camera < 2; ++camera) {
@@ -69,10 +65,10 @@ absl::StatusOr<Localization> Localizer::Localize(const Observation& observation,
                                                  std::span<const JourneyRef> journeys) {
   // II-B, equations (1) to (5): corners, and their flow since the reference frame.
   HOMING_ASSIGN_OR_RETURN(const auto cameras, CamerasFor(journeys));
-  HOMING_ASSIGN_OR_RETURN(ObservedFlow flow, flow_.Compute(observation, cameras));
+  HOMING_ASSIGN_OR_RETURN(const ObservedFlow flow, flow_.Compute(observation, cameras));
   flow_.FillSizes(options_.cameras);
   const bool has_flow = flow.fields[0].has_value() || flow.fields[1].has_value();
-  // Own design: nothing moved enough since the reference, so the belief stays as it is.
+  // Added to the paper: nothing moved enough since the reference, so the belief stays as it is.
   if (!flow.makes_step && last_) {
     Localization same = *last_;
     same.sequence = observation.sequence;
@@ -86,19 +82,17 @@ absl::StatusOr<Localization> Localizer::Localize(const Observation& observation,
   result.sequence = observation.sequence;
   result.frame = observation.frame.value_or(observation.sequence);
   result.has_flow = has_flow;
-  // Own design: what an ideal camera, square to the direction of travel, would have seen.
-  flow = Rectify(flow, options_.cameras);
-  result.motion = ClassifyMotion(flow, options_.cameras);
   // III, Fig. 4, equations (11), (12): landmarks, by the side of the route that they are on.
-  const SeenSides seen = FindRouteLandmarks(flow, result.motion);
+  const SeenStep seen = SeeLandmarks(flow, options_.cameras, options_.travel, options_.landmark);
+  result.motion = seen.motion;
   // III, equations (13) to (15), over all stored landmarks.
-  result.matches = matcher_.Find(journeys, seen, options_.match);
-  // V, future work: where the sequence of what was seen places the robot.
-  const ObservedFlow straight = FollowPath(journeys, flow, result.motion);
-  const SeenProfiles profiles = MakeRouteProfiles(straight, result.motion);
-  result.position = filter_.Update(journeys, result.motion, seen, profiles);
-  TellPose(journeys, flow, result);
-  TellLandmark(journeys, seen, result);
+  result.matches = matcher_.Find(journeys, seen.landmarks, options_.match);
+  // V, future work: the robot's place by the sequence of its views.
+  const ObservedFlow straight = FollowPath(journeys, seen.flow, seen.motion);
+  const SeenProfiles profiles = MakeRouteProfiles(straight, seen.motion);
+  result.position = filter_.Update(journeys, seen.motion, seen.landmarks, profiles);
+  ReportPose(journeys, seen.flow, result);
+  ReportLandmark(journeys, seen.landmarks, result);
   last_ = result;
   last_->matches.clear();
   return result;
@@ -120,28 +114,29 @@ ObservedFlow Localizer::FollowPath(std::span<const JourneyRef> journeys, const O
   return path_.Predict(map, *last_->position.step, flow) ? path_.Straighten(flow) : flow;
 }
 
-void Localizer::TellPose(std::span<const JourneyRef> journeys, const ObservedFlow& flow,
-                         Localization& result) {
+void Localizer::ReportPose(std::span<const JourneyRef> journeys, const ObservedFlow& flow,
+                           Localization& result) {
   result.position.path_offset.reset();
-  const auto tell_heading = [&] {
-    result.turn = path_.pose().heading - told_heading_;
-    told_heading_ = path_.pose().heading;
+  const auto report_heading = [&] {
+    result.turn = path_.pose().heading - reported_heading_;
+    reported_heading_ = path_.pose().heading;
   };
   if (result.motion == Motion::kTurning) {
     result.turn = TurnOnSpot(flow, options_.cameras);
     if (result.turn) path_.Turn(*result.turn);
-    // Where a robot headed that has not driven yet is not known: its turns add up behind.
-    told_heading_ = path_.is_started() ? told_heading_ + result.turn.value_or(0) : 0;
+    // Before the robot has driven, its heading is not known: the first report after that includes
+    // these turns.
+    reported_heading_ = path_.is_started() ? reported_heading_ + result.turn.value_or(0) : 0;
   } else if (!result.position.step) {
-    if (path_.TurnAlone(flow)) tell_heading();
+    if (path_.TurnAlone(flow)) report_heading();
     path_.Forget();
   } else if (path_.has_motion()) {
     const JourneyMap& map = *journeys[static_cast<std::size_t>(result.position.journey)].map;
     path_.Correct(map, *result.position.step, flow);
-    tell_heading();
+    report_heading();
     if (path_.is_started()) result.position.path_offset = path_.pose().offset;
   } else if (path_.TurnAlone(flow)) {
-    tell_heading();
+    report_heading();
   }
   if (result.turn && !options_.cameras[0].intrinsics) {
     *result.turn *= PathPoseFilter::UsualFocal(options_.cameras[0].width);
@@ -166,18 +161,6 @@ absl::StatusOr<std::array<Camera, 2>> Localizer::CamerasFor(
   return query.cameras;
 }
 
-SeenSides Localizer::FindRouteLandmarks(const ObservedFlow& flow, Motion motion) const {
-  SeenSides seen;
-  for (const Side camera : {Side::kLeft, Side::kRight}) {
-    const auto& field = flow.fields[static_cast<std::size_t>(camera)];
-    if (field && motion == Motion::kMoving) {
-      seen[static_cast<std::size_t>(RouteSide(camera, options_.travel))] =
-          FindLandmarks(*field, options_.landmark);
-    }
-  }
-  return seen;
-}
-
 SeenProfiles Localizer::MakeRouteProfiles(const ObservedFlow& flow, Motion motion) const {
   SeenProfiles seen;
   for (const Side camera : {Side::kLeft, Side::kRight}) {
@@ -189,8 +172,8 @@ SeenProfiles Localizer::MakeRouteProfiles(const ObservedFlow& flow, Motion motio
   return seen;
 }
 
-void Localizer::TellLandmark(std::span<const JourneyRef> journeys, const SeenSides& seen,
-                             Localization& result) {
+void Localizer::ReportLandmark(std::span<const JourneyRef> journeys, const SeenSides& seen,
+                               Localization& result) {
   const Position& position = result.position;
   if (!position.step) {
     return;

@@ -19,7 +19,7 @@ struct LocalizerOptions {
   Travel travel = Travel::kReturn;
   // This robot's cameras, indexed by Side of the ROBOT; sizes of 0 are filled in.
   std::array<Camera, 2> cameras;
-  // Those of the journeys searched.
+  // Options of the journeys searched.
   FlowOptions flow;
   LandmarkOptions landmark;
   MatchOptions match;
@@ -42,10 +42,10 @@ struct Localization {
   std::optional<std::int32_t> landmark;
   std::optional<double> similarity;
   std::vector<Match> matches;
-  // Turn since the last step beyond what following the outbound path needs, to the robot's left
-  // (METHOD 7): rad where a focal length is known, else pixels. Its sum is the heading against the
-  // path, since it takes up what was wrong before. Absent without two cameras that look across the
-  // direction of travel.
+  // Change of the heading relative to the outbound path since the last step, to the robot's left
+  // (METHOD 7): rad if a focal length is known, else pixels. It includes corrections of earlier
+  // errors, so that the sum is the heading relative to the path. Absent without two cameras that
+  // look across the direction of travel.
   std::optional<double> turn;
 };
 
@@ -74,24 +74,24 @@ class Localizer {
  private:
   // This robot's cameras, with the sizes that they must have. FAILED_PRECONDITION.
   absl::StatusOr<std::array<Camera, 2>> CamerasFor(std::span<const JourneyRef> journeys) const;
-  SeenSides FindRouteLandmarks(const ObservedFlow& flow, Motion motion) const;
   SeenProfiles MakeRouteProfiles(const ObservedFlow& flow, Motion motion) const;
-  // Moves the pose beside the path, and gives the flow as if the robot headed along it.
+  // Moves the pose beside the path, and returns the flow that a robot heading along the path would
+  // have seen.
   ObservedFlow FollowPath(std::span<const JourneyRef> journeys, const ObservedFlow& flow,
                           Motion motion);
-  // The pose beside the path, and how the robot has turned against it, to the answer.
-  void TellPose(std::span<const JourneyRef> journeys, const ObservedFlow& flow,
-                Localization& result);
-  void TellLandmark(std::span<const JourneyRef> journeys, const SeenSides& seen,
-                    Localization& result);
+  // Writes the pose beside the path, and the turn relative to the path, into the answer.
+  void ReportPose(std::span<const JourneyRef> journeys, const ObservedFlow& flow,
+                  Localization& result);
+  void ReportLandmark(std::span<const JourneyRef> journeys, const SeenSides& seen,
+                      Localization& result);
 
   LocalizerOptions options_;
   ObservationFlow flow_;
   Matcher matcher_;
   PositionFilter filter_;
   PathPoseFilter path_;
-  // Heading told so far.
-  double told_heading_ = 0;
+  // Sum of the reported turns, rad.
+  double reported_heading_ = 0;
   // The answer to the last step.
   std::optional<Localization> last_;
 };

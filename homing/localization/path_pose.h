@@ -17,49 +17,52 @@ namespace homing {
 
 // Both to the robot's left.
 struct PathPose {
-  // Metres beside the path over the distance of what is seen.
+  // Offset in scene distances: metres beside the path divided by the mean distance of the seen
+  // objects.
   double offset = 0;
-  // Against the outbound path (its other direction for Travel::kReturn), rad.
+  // Heading relative to the outbound path (its other direction for Travel::kReturn), rad.
   double heading = 0;
 };
 
-// Two cameras that look across the direction of travel are needed, all the time. Not thread-safe.
+// It needs two cameras that look across the direction of travel, at every observation. Not
+// thread-safe.
 class PathPoseFilter {
  public:
   PathPoseFilter(Travel travel, const std::array<Camera, 2>& cameras);
 
-  // An observation; the robot's cameras, as they become known.
+  // Begins an observation. `cameras`: the robot's, with the sizes known so far.
   void Begin(const std::array<Camera, 2>& cameras) {
     cameras_ = cameras;
     has_motion_ = false;
   }
-  // Of a camera that nothing is known of, with a field of view of 60 degrees. Pixels.
+  // The focal length assumed for an unknown camera: a field of view of 60 degrees. Pixels.
   static double UsualFocal(int width);
   // Starts beside the path.
   void StartAtOffset(double offset);
 
-  // One observation of motion: how the robot has turned beyond what the path needs, read against a
-  // step of the map, moves the belief. False: the flow tells nothing.
+  // Predicts the pose for one observation of motion: the turn relative to the path, measured
+  // against a step of the map. False: the flow does not show it.
   bool Predict(const JourneyMap& map, std::int64_t step, const ObservedFlow& flow);
-  // Predict was called for this observation, and the flow told something.
+  // Predict returned true for this observation.
   bool has_motion() const { return has_motion_; }
   // A turn on the spot, rad to the left.
   void Turn(double turned);
-  // The robot is lost: what was believed says nothing any more.
+  // Resets the belief: the robot is lost.
   void Forget();
-  // One observation of motion that cannot be read against the map: the vertical flow turns the
-  // heading. False: it shows no turn.
+  // Predicts the heading for one observation of motion that cannot be compared with the map, by the
+  // vertical flow. False: it shows no turn.
   bool TurnAlone(const ObservedFlow& flow);
-  // The flow that a robot would have seen that heads along the path and does not turn.
+  // The flow that a robot heading along the path, without turning, would have seen.
   ObservedFlow Straighten(const ObservedFlow& flow) const;
-  // What the images say, against the steps around `step`. `flow`: as Straighten was given it.
+  // Corrects the pose by comparing the images with the steps around `step`. `flow`: the argument of
+  // Straighten.
   void Correct(const JourneyMap& map, std::int64_t step, const ObservedFlow& flow);
 
-  // The heading as far as it is known, 0 at first.
+  // The estimated pose; the heading is 0 at first.
   const PathPose& pose() const { return pose_; }
-  // The offset is known too.
+  // True if the offset is known too.
   bool is_started() const { return is_started_; }
-  // The belief's deviations.
+  // Standard deviations of the belief.
   PathPose deviation() const;
 
  private:
@@ -69,13 +72,13 @@ class PathPoseFilter {
     double steps = 0;
     double bend = 0;
   };
-  // By side of the route: sideways flow now and at the step, rad.
+  // `now` and `then` (at the step): sideways flow, rad, by side of the route.
   Advance AdvanceOf(const std::array<double, 2>& now, const std::array<double, 2>& then,
                     double turn);
-  // Pixels.
+  // Focal length of a camera whose images have this width, pixels.
   double FocalOf(std::size_t camera, int width) const;
   FlowField Turned(const FlowField& field, std::size_t camera, double heading) const;
-  // By camera: distances of each tried pose, over the tried steps.
+  // Profile distances of each tried pose over the tried steps, by camera.
   struct Tried;
   void Fit(const Tried& tried);
 
@@ -83,8 +86,7 @@ class PathPoseFilter {
   std::array<Camera, 2> cameras_;
   bool is_started_ = false;
   bool has_motion_ = false;
-  // Distances of what is seen.
-  // Driven since the last correction, and since the place was last lost.
+  // Distance driven since the last correction, and since the robot was lost, scene distances.
   double uncorrected_ = 0;
   double driven_since_lost_ = 0;
   PathPose pose_;
@@ -92,9 +94,9 @@ class PathPoseFilter {
   double offset_variance_;
   double heading_variance_;
   double covariance_ = 0;
-  // As it has been lately.
+  // Mean of the last observations.
   std::optional<Advance> advance_;
-  // Of the last observation: to the left, rad; ahead, distances of what is seen.
+  // Motion of the last observation: turn to the left, rad; distance ahead, scene distances.
   double turned_ = 0;
   double driven_ = 0;
 };

@@ -1,3 +1,4 @@
+// PositionFilter's answer from its belief; position_filter.cc updates the belief.
 #include <algorithm>
 #include <array>
 

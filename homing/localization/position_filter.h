@@ -1,5 +1,5 @@
-// Discrete Bayes filter over the steps of one or more journeys: where on the route, which way, and
-// whether on it at all.
+// Discrete Bayes filter over the steps of one or more journeys: the step, the direction, and
+// whether the robot is on a route at all. Source: paper V (future work); docs/algorithm.md.
 #ifndef HOMING_LOCALIZATION_POSITION_FILTER_H_
 #define HOMING_LOCALIZATION_POSITION_FILTER_H_
 
@@ -31,31 +31,31 @@ struct PositionOptions {
   double match_probability = 0.90;
   // UNKNOWN_PLACE from this probability off the route on. (0, 1].
   double unknown_probability = 0.50;
-  // What the filter weighs steps by: the flow profiles, where the journeys have any; else, or if
-  // this is set, the paper's P_T.
+  // Evidence for steps: the flow profiles, if the journeys have any; else, or if this is set, the
+  // paper's P_T.
   bool paper_only = false;
   LikelihoodOptions likelihood;
-  // Off the route before anything was seen. [0, 1).
+  // Probability of being off the route before the first observation. [0, 1).
   double off_route_prior = 0.2;
-  // Probability a step that the robot has been set down anywhere (uniform restart). [0, 1).
+  // Probability, for each step, that the robot was set down anywhere (uniform restart). [0, 1).
   double restart_probability = 1e-4;
 };
 
 absl::Status Validate(const PositionOptions& options);
 
-// Where the robot was a moment ago, on one of the journeys.
+// The robot's recent place on one of the journeys.
 struct PositionPrior {
   int journey = 0;
   std::int64_t step = 0;
   Direction direction = Direction::kUnknown;
-  // Of the robot being there, 0..1.
+  // Probability that the robot is there, 0..1.
   double probability = 0;
   // As in Position.
   std::optional<double> path_offset;
 };
 
-// What the filter believes. step, interval and progress are absent before the first moving
-// observation and for UNKNOWN_PLACE.
+// The filter's estimate. step, interval and progress are absent before the first moving observation
+// and for UNKNOWN_PLACE.
 struct Position {
   Outcome outcome = Outcome::kAmbiguous;
   // Index into the journeys.
@@ -63,14 +63,14 @@ struct Position {
   std::optional<std::int64_t> step;
   std::int64_t interval_first = 0;
   std::int64_t interval_last = 0;
-  // Of the interval, 0..1.
+  // Probability of the interval, 0..1.
   double probability = 0;
-  // Off every route, 0..1. `probability` is at most 1 - this.
+  // Probability of being off every route, 0..1. `probability` is at most 1 - this.
   double unknown_probability = 0;
   // Steps an observation, negative towards home; absent before the robot has moved.
   std::optional<double> speed_ratio;
-  // Posterior mean of the metres left of the outbound path over the distance of what is seen, left
-  // of the ROUTE; absent without an estimate.
+  // Posterior mean of the offset to the left of the ROUTE, in scene distances: metres divided by
+  // the mean distance of the seen objects. Absent without an estimate.
   std::optional<double> path_offset;
   double progress_home = 0;
   Direction direction = Direction::kUnknown;
@@ -87,46 +87,46 @@ class PositionFilter {
   absl::Status Start(std::span<const JourneyRef> journeys, const PositionPrior& prior);
 
   // One observation. The journeys must be the same, in the same order, at each call; a map may have
-  // grown (it is still being recorded). Standing moves nothing; nothing seen only predicts.
+  // grown (it is still being recorded). Motion::kStanding changes nothing; without anything seen
+  // the filter only predicts.
   Position Update(std::span<const JourneyRef> journeys, Motion motion, const SeenSides& seen,
                   const SeenProfiles& profiles = {});
 
-  // After the last observation: by journey, the steps that are held one by one and where the robot
-  // may be among them.
+  // Masses after the last observation, by journey, of the steps that are held one by one.
   const std::vector<StepMass>& masses() const { return masses_; }
 
  private:
-  // Takes up new journeys and steps.
+  // Adds new journeys and steps to the belief.
   void Grow(std::span<const JourneyRef> journeys);
   void Predict(Motion motion);
   void Correct(std::span<const JourneyRef> journeys, const SeenSides& seen,
                const SeenProfiles& profiles);
   void CorrectByProfiles(std::span<const JourneyRef> journeys, const SeenProfiles& profiles);
   void CorrectByLandmarks(std::span<const JourneyRef> journeys, const SeenSides& seen);
-  // By journey, of the steps in focus.
+  // Masses of the active window, by journey.
   std::vector<StepMass> Masses() const;
-  // Of the steps of a journey's active window.
+  // Factors of the steps of a journey's active window.
   using Factors = std::function<std::span<const float>(std::size_t journey)>;
-  // Mean over where the robot may be.
+  // Mean of the factors over the robot's possible places.
   double MeanFactor(const Factors& factors) const;
-  // Multiplies the steps of each journey's active window by its factors, the speeds by what the
-  // odometer says, and the directions by what the sign of the flow says. `weight`: of the
+  // Multiplies the steps of each journey's active window by their factors, the speeds by the
+  // odometer's likelihoods, and the directions by those of the flow's sign. `weight`: that of the
   // observation.
   void Weigh(std::span<const JourneyRef> journeys, const SeenProfiles& profiles, double weight,
              const Factors& factors);
-  // What this observation may say that the ones before have not: the steps that the robot has moved
-  // over the correlation length of the map. (0, 1].
+  // Weight of an observation after so many steps: the fraction of it that is new (EvidenceWeight).
+  // (0, 1].
   double WeightOfObservation(double moved) const;
-  // Evidence of being on the route: how the view has changed since a while ago (SharedChange), and
-  // how well it fits where the robot was expected, as MeanFactor.
+  // Evidence of being on the route: the shared change since an earlier instant (SharedChange), and
+  // the fit to the expected place, as MeanFactor gives it.
   std::optional<double> SharedBy(std::span<const JourneyRef> journeys, double moved);
   void AddMembership(double weight, std::optional<double> shared, double fit);
-  // Where the robot is well known, only the steps around it are held one by one; else all.
+  // Holds only the steps around the robot one by one if its place is known; else all.
   void FocusIfKnown();
   void Unfocus();
   // Makes the mass of all steps 1, where it was `mass`.
   void Normalise(double mass);
-  // The interval of +- `half` steps, of all journeys, that holds the most.
+  // The interval of +- `half` steps, over all journeys, that holds the most mass.
   struct Best {
     std::size_t journey = 0;
     StepWindow window;
@@ -143,12 +143,12 @@ class PositionFilter {
   // Steps from the first observation on, and those of the last one, as DistanceMoved tells them.
   double moved_ = 0;
   double last_moved_ = 1;
-  // By journey: where, if on a route at all. Together the mass is 1.
+  // Beliefs by journey, if the robot is on a route. Together their mass is 1.
   std::vector<RouteBelief> beliefs_;
   // After the last observation, by journey.
   std::vector<StepMass> masses_;
   std::int64_t step_count_ = 0;
-  // A moving observation has been taken.
+  // A moving observation was processed.
   bool started_ = false;
   // By journey.
   std::vector<SpeedEvidence> speeds_;

@@ -1,3 +1,4 @@
+// Validates PositionOptions of position_filter.h.
 #include "homing/base/range_check.h"
 #include "homing/base/status_macros.h"
 #include "homing/localization/position_filter.h"

@@ -18,13 +18,13 @@ namespace homing {
 class RouteBelief {
  public:
   std::int64_t step_count() const { return step_count_; }
-  // The focus: from first_step() on, focus_size() steps. All of them at first.
+  // The active window: focus_size() steps from first_step() on. At first all steps.
   std::int64_t first_step() const { return first_; }
   std::int64_t focus_size() const { return static_cast<std::int64_t>(lanes_[0].size()); }
   bool IsFocused() const { return focus_size() < step_count_; }
 
-  // Takes up steps at the end, each with `mass` spread over directions and speeds as the prior is;
-  // with that of all others where these are not held one by one.
+  // Appends steps, each with `mass` spread over directions and speeds like the prior; with the mass
+  // of the steps outside of the active window if there are such steps.
   void Grow(std::int64_t step_count, double mass);
   // Adds `mass` to each step, spread in the same way.
   void AddToEach(double mass);
@@ -39,13 +39,14 @@ class RouteBelief {
   };
   void Add(const Place& place);
 
-  // One observation of motion; each step then gains `restart`. `change`: probability that the speed
-  // changes. Mass that passes an end of the journey leaves it: returns that fraction.
+  // Moves the masses by one observation of motion; each step then gains `restart`. `change`:
+  // probability that the speed changes. Mass that passes an end of the journey leaves it: returns
+  // that fraction.
   double Move(double change, double restart = 0);
-  // A turn on the spot: hardly any motion.
+  // Moves the masses by a turn on the spot: hardly any motion.
   void Turn(double restart = 0);
   // Multiplies each step of the active window by its factor, each direction by its factor, and each
-  // speed by what the odometer says. `ratios`: SpeedEvidence::IndexOf the reading now less the
+  // speed by the odometer's likelihood. `ratios`: SpeedEvidence::IndexOf the reading now less the
   // step's. `directions`: DirectionFactors. REQUIRES: focus_size() factors and ratios. Returns the
   // remaining mass.
   StepMass Weigh(std::span<const float> factors, std::span<const std::int16_t> ratios,
@@ -58,9 +59,9 @@ class RouteBelief {
   void Unfocus();
 
   double Mass() const;
-  // Of the focus.
+  // Masses of the active window.
   StepMass Masses() const;
-  // Of all steps beyond the focus.
+  // Mass of all steps outside of the active window.
   double MassBeyond() const;
   // Mean speed of the active window, steps an observation, and with its sign away from home.
   struct Speed {
@@ -77,7 +78,7 @@ class RouteBelief {
   using Lane = std::vector<float>;
   struct Motion;
 
-  // Where the lanes of a motion come from and go to.
+  // The steps from which and to which a motion carries the lanes.
   struct Carried;
 
   void Carry(const Motion& motion, double restart);
@@ -93,9 +94,9 @@ class RouteBelief {
 
   std::int64_t step_count_ = 0;
   std::int64_t first_ = 0;
-  // By step from first_ on.
+  // Masses by lane, and by step from first_ on.
   std::array<Lane, kLanes> lanes_;
-  // Of each step beyond.
+  // Mass of each step outside of the active window.
   double background_ = 0;
   // All masses are still to be multiplied by this.
   double scale_ = 1;

@@ -1,11 +1,11 @@
-// Whether the robot is on one of the routes at all.
+// The belief that the robot is on one of the routes at all.
 #ifndef HOMING_LOCALIZATION_ROUTE_MEMBERSHIP_H_
 #define HOMING_LOCALIZATION_ROUTE_MEMBERSHIP_H_
 
 namespace homing {
 
 // The logarithm of the odds of being on the route, bounded: however long a route has fitted,
-// another may begin.
+// another may begin. Not thread-safe.
 class RouteMembership {
  public:
   // REQUIRES: 0 <= off_route_prior < 1.
@@ -13,9 +13,10 @@ class RouteMembership {
 
   // `evidence`: logarithm of how much likelier the observation is on the route than off it.
   void Add(double evidence);
-  // A fraction of the mass has passed an end of the route. [0, 1].
+  // Call it after a fraction of the mass has passed an end of the route. [0, 1].
   void Leave(double fraction);
-  // The rest of it fits what is seen `ratio` times as well as a place at random does. Positive.
+  // Call it when the rest of the mass fits the view `ratio` times as well as a random place does.
+  // Positive.
   void Fit(double ratio);
 
   // Probability of being on the route.
@@ -23,7 +24,7 @@ class RouteMembership {
 
  private:
   double log_odds_;
-  // Has passed an end, if on the route before.
+  // Probability that the robot has passed an end, if it was on the route before.
   double left_ = 0;
 };
 

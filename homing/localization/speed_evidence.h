@@ -1,5 +1,5 @@
-// What the odometer says of the robot's speed: the ratio of the flow now to the flow stored at a
-// step is the number of steps that the robot advances, if it is at that step (METHOD 7).
+// The odometer's evidence of the robot's speed: the ratio of the present flow to the flow stored at
+// a step is the number of steps that the robot advances, if it is at that step (METHOD 7).
 #ifndef HOMING_LOCALIZATION_SPEED_EVIDENCE_H_
 #define HOMING_LOCALIZATION_SPEED_EVIDENCE_H_
 
@@ -31,7 +31,7 @@ class SpeedEvidence {
     const int most = difference < kMostCode ? difference : kMostCode;
     return static_cast<std::int16_t>((most > -kMostCode ? most : -kMostCode) + kMostCode);
   }
-  // By index. Positive.
+  // Likelihood of the ratio by index, for one speed. Positive.
   const float* of(std::size_t speed) const { return tables_[speed].data(); }
 
   // Probability an observation that the speed changes. A good odometer is followed at once; a poor

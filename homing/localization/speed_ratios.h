@@ -1,4 +1,4 @@
-// What the odometer says at each step: the flow now over the flow stored there (METHOD 7).
+// The odometer's ratio at each step: the present flow over the stored flow (METHOD 7).
 #ifndef HOMING_LOCALIZATION_SPEED_RATIOS_H_
 #define HOMING_LOCALIZATION_SPEED_RATIOS_H_
 
@@ -12,7 +12,8 @@
 
 namespace homing {
 
-// By step of `window`, an index into SpeedEvidence; the mean of the cameras. `route`: of `map`.
+// Indices into SpeedEvidence, by step of `window`; the mean of the cameras. `route`: the scale of
+// `map`.
 std::vector<std::int16_t> SpeedRatios(const JourneyMap& map, const RouteScale& route,
                                       const StepMass& window, const SeenProfiles& profiles);
 

@@ -1,5 +1,5 @@
-// How well the steps of the journeys fit what is seen at one instant: P_T of up to four landmarks,
-// assigned one to one within a side. Source: paper III, V for P_T.
+// Likelihood of the steps of the journeys by the landmarks seen at one instant: P_T of up to four
+// landmarks, assigned one to one within a side. Source: paper III, V for P_T.
 #ifndef HOMING_LOCALIZATION_STEP_LIKELIHOOD_H_
 #define HOMING_LOCALIZATION_STEP_LIKELIHOOD_H_
 
@@ -17,13 +17,12 @@ namespace homing {
 struct LikelihoodOptions {
   // Least P_T of a landmark. (0, 1).
   double floor = 1e-3;
-  // Probability that a landmark is not what the map has there (hidden, new, divided otherwise).
-  // [0, 1].
+  // Probability that a landmark is not the one in the map (hidden, new, divided otherwise). [0, 1].
   double outlier_share = 0.6;
-  // Exponent of the whole: what consecutive frames show is not independent. (0, 1].
+  // Exponent of the whole likelihood: consecutive frames are not independent. (0, 1].
   double temper = 0.25;
-  // How far being off the route lies from a step at random (0) towards the true step (1), as
-  // logarithms. [0, 1].
+  // Value of being off the route between that of a random step (0) and that of the true step (1),
+  // as logarithms. [0, 1].
   double off_route_share = 0.4;
 };
 
@@ -39,17 +38,17 @@ class StepLikelihood {
   void Compute(std::span<const JourneyRef> journeys, const SeenSides& seen);
 
   // One value a step: the product of its landmarks' factors. A factor is P_T over its mean over all
-  // steps of all journeys where it could be compared, or 1 if it is an outlier. Where it could not,
-  // it is neutral: 1.
+  // steps of all journeys with a landmark to compare, or 1 if it is an outlier. Without a landmark
+  // to compare it is neutral: 1.
   const std::vector<float>& of(std::size_t journey) const { return likelihoods_[journey]; }
-  // The value of being off the route: between that of a step at random, 1, and what is expected of
+  // The value of being off the route: between that of a random step, 1, and the expected value of
   // the true step.
   double OffRoute() const;
 
  private:
   // Two landmarks a side of the route.
   static constexpr std::size_t kSlots = 4;
-  // Of one landmark, a value a step; below 0: not compared.
+  // Factors of one landmark by step; below 0: not compared.
   using Factors = std::array<std::vector<float>, kSlots>;
   struct Moments {
     double sum = 0;
@@ -70,7 +69,7 @@ class StepLikelihood {
   void Combine(const Factors& factors, std::vector<float>& likelihood) const;
 
   LikelihoodOptions options_;
-  // By journey.
+  // Tables by journey.
   std::vector<FactorTable> tables_;
   std::vector<Factors> factors_;
   std::vector<std::vector<float>> likelihoods_;

@@ -12,7 +12,7 @@ namespace {
 // than the best one count as equal.
 constexpr double kSlack = 0.002;
 
-// Sums of the mass below each step of the focus.
+// Sums of the mass below each step of the active window.
 class MassBelow {
  public:
   explicit MassBelow(const StepMass& mass) : first_(mass.first), below_(mass.mass.size() + 1) {

@@ -1,4 +1,4 @@
-// The interval of steps that holds the most of a belief.
+// The interval of steps that holds the most mass of a belief.
 #ifndef HOMING_LOCALIZATION_STEP_WINDOW_H_
 #define HOMING_LOCALIZATION_STEP_WINDOW_H_
 
@@ -17,9 +17,9 @@ struct StepWindow {
   double mass = -1;
 };
 
-// The window of the greatest mass; of those that hold nearly as much, the one about the middle of
-// that mass. Nothing for no steps. `half` >= 0; `step_count`: of the journey, which
-// holds no mass beside this.
+// The window of the greatest mass; of windows that hold nearly as much, the one around the middle
+// of that mass. No window without steps. `half` >= 0. `step_count`: that of the journey, which has
+// no mass outside of `mass`.
 StepWindow BestWindow(const StepMass& mass, std::int64_t half, std::int64_t step_count);
 
 }  // namespace homing

@@ -10,13 +10,13 @@
 
 namespace homing {
 
-// Rad to the left, and its variance: large where the flow tells nothing.
+// The turn to the left, rad, and its variance, rad^2: large if the flow does not show a turn.
 struct VerticalTurn {
   double turn = 0;
   double variance = 1;
 };
 
-// A camera without flow says nothing.
+// A camera without flow does not contribute.
 VerticalTurn ReadVerticalTurn(const ObservedFlow& flow, const std::array<Camera, 2>& cameras);
 
 }  // namespace homing

@@ -9,7 +9,7 @@
 
 namespace homing {
 
-// kChunk elements are allocated at a time; a power of two.
+// kChunk elements are allocated at a time; a power of two. Not thread-safe.
 template <typename T, std::size_t kChunk>
 class ChunkedArray {
  public:
@@ -18,7 +18,7 @@ class ChunkedArray {
   std::uint32_t size() const { return size_; }
   T& operator[](std::uint32_t i) { return chunks_[i / kChunk][i % kChunk]; }
   const T& operator[](std::uint32_t i) const { return chunks_[i / kChunk][i % kChunk]; }
-  // Its index.
+  // Returns the index of the new element.
   std::uint32_t Add(const T& value) {
     if (size_ % kChunk == 0) {
       chunks_.push_back(std::make_unique<T[]>(kChunk));

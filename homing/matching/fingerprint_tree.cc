@@ -11,7 +11,7 @@ namespace {
 // Rounding error of float when it is compared with a double.
 constexpr double kRounding = 1e-6;
 
-// Prefetches all of these at once, instead of one at each use.
+// Prefetches all columns at once, so that their cache misses overlap.
 template <typename... Columns>
 void Prefetch(const Columns&... columns) {
   constexpr std::size_t kCacheLine = 64 / sizeof(float);
@@ -47,7 +47,7 @@ struct FingerprintTree::Walk {
   const SurvivalBound& bound;
   TreeVisitor* const visitor;
   SearchCost* const cost;
-  // A heap.
+  // A heap: the region with the greatest bound is on top.
   std::vector<Region> regions;
 
   float least() const { return static_cast<float>(visitor->least() * (1 - kRounding)); }
@@ -68,7 +68,7 @@ struct FingerprintTree::Walk {
     regions.pop_back();
     return region;
   }
-  // The best first, so that most others need not be computed.
+  // Considers the best entry first, so that most others need not be computed.
   void ConsiderBestFirst(const Bucket& bucket, const std::array<float, kCapacity>& bounds) {
     std::array<std::pair<float, int>, kCapacity> candidates;
     auto end = candidates.begin();

@@ -16,7 +16,7 @@
 
 namespace homing {
 
-// 20 bytes a fingerprint.
+// One fingerprint in 20 bytes. x and y: mean midpoint, source pixels.
 struct TreeEntry {
   float x = 0;
   float y = 0;
@@ -41,7 +41,7 @@ class TreeVisitor {
 struct TreeQuery {
   float x = 0;
   float y = 0;
-  // > 0.
+  // Number of vectors, > 0.
   std::int32_t count = 0;
 };
 
@@ -79,12 +79,12 @@ class FingerprintTree {
   // Set in a reference to a bucket, clear in one to a node.
   static constexpr std::uint32_t kBucket = 0x80000000;
 
-  // Of x, y and count.
+  // Bounds of x, y and count.
   struct Box {
     std::array<float, kDimensions> low;
     std::array<float, kDimensions> high;
   };
-  // In columns, for the vectorised bound. Entries past `size` have count 0.
+  // Entries in columns, for the vectorised bound. Those past `size` have count 0.
   struct alignas(32) Bucket {
     std::array<float, kCapacity> x{};
     std::array<float, kCapacity> y{};

@@ -200,7 +200,7 @@ bool LandmarkIndex::Sweep(std::uint32_t buckets) {
     return false;
   }
   if (sweeping_.empty()) {
-    // From the first bucket. Entries of these journeys only move to later buckets from now on.
+    // Starts at the first bucket. From now on entries of these journeys only move to later buckets.
     sweeping_.swap(removed_);
     sweep_tree_ = 0;
     sweep_bucket_ = 0;

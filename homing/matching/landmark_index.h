@@ -57,7 +57,7 @@ class LandmarkIndex {
   // Numbers in use, and those of removed journeys.
   int journey_count() const { return static_cast<int>(journeys_.size()); }
   bool removed(int journey) const { return Of(journey).removed; }
-  // Of journeys that are not removed.
+  // Fingerprints of journeys that are not removed.
   std::int64_t fingerprint_count() const { return fingerprint_count_; }
   std::size_t MemoryBytes() const;
 
@@ -95,7 +95,7 @@ class LandmarkIndex {
 
   // Its elements never move.
   std::deque<Journey> journeys_;
-  // By mu and sigma.
+  // Groups by mu and sigma.
   std::map<std::pair<double, double>, std::unique_ptr<Group>> groups_;
   ChunkedArray<LandmarkOf, 1024> landmarks_;
   std::int64_t fingerprint_count_ = 0;
@@ -103,7 +103,7 @@ class LandmarkIndex {
   // Journeys removed since the current sweep began, and before it.
   std::vector<int> removed_;
   std::vector<int> sweeping_;
-  // Where Sweep continues: a tree, counted over groups and sides, and a bucket.
+  // The place where Sweep continues: a tree, counted over groups and sides, and a bucket.
   std::size_t sweep_tree_ = 0;
   std::uint32_t sweep_bucket_ = 0;
   // Free numbers: no tree holds an entry of them.

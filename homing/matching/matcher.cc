@@ -60,13 +60,6 @@ bool IsBetter(const Match& a, const Match& b) {
 
 }  // namespace
 
-Side RouteSide(Side camera, Travel travel) {
-  if (travel == Travel::kSame) {
-    return camera;
-  }
-  return camera == Side::kLeft ? Side::kRight : Side::kLeft;
-}
-
 absl::Status Validate(const MatchOptions& options) {
   HOMING_RETURN_IF_ERROR(CheckRange("max_matches", options.max_matches, 1, 1000));
   return CheckRange("threshold", options.threshold, 0.0, 1.0);

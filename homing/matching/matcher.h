@@ -14,20 +14,11 @@
 
 #include "homing/journey/journey_map.h"
 #include "homing/journey/journey_ref.h"
-#include "homing/landmark/landmark_finder.h"
+#include "homing/journey/see_landmarks.h"
 #include "homing/matching/survival_bound.h"
 #include "homing/similarity/similarity.h"
 
 namespace homing {
-
-// kReturn: the cameras look at exchanged sides of the route. The direction is always estimated.
-enum class Travel { kReturn = 1, kSame = 2 };
-
-// The side of the route that a camera of the robot looks at.
-Side RouteSide(Side camera, Travel travel);
-
-// Landmarks seen at one instant, indexed by side of the ROUTE.
-using SeenSides = std::array<std::vector<SeenLandmark>, 2>;
 
 struct Match {
   // Index into the journeys searched.
@@ -73,11 +64,11 @@ class Matcher {
     int journey = 0;
     // Number of the landmark over all journeys.
     std::size_t landmark = 0;
-    // Bound of P_T.
+    // An upper bound of P_T.
     float most = 0;
   };
 
-  // The landmarks seen on both sides of the route, in one row.
+  // One entry of the list of landmarks seen on either side of the route.
   struct SeenPlace {
     const SeenLandmark* landmark = nullptr;
     float x = 0;
@@ -91,29 +82,29 @@ class Matcher {
             const SeenSides& seen, double threshold);
   // Selects, of at most kTile fingerprints, those within this squared distance of a seen landmark.
   std::span<const Fingerprint* const> FindNear(std::span<const Fingerprint> tile, float reach);
-  // Over all steps.
+  // Scans all steps of all journeys.
   void ScanAll(std::span<const JourneyRef> journeys, const SeenSides& seen, double threshold);
-  // The P_T that the `most`-th landmark has at least, as far as bounds tell; once a scan.
+  // A lower bound of the P_T of the `most`-th best landmark. Call it once a scan.
   float LeastOfBest(int most);
   // The best of each landmark whose P_T may reach `of_best`.
   std::vector<Match> Compute(std::span<const JourneyRef> journeys, double threshold, float of_best);
 
   std::vector<std::pair<DeviationModel, std::unique_ptr<const SurvivalBound>>> bounds_;
   std::vector<SeenPlace> all_seen_;
-  // Of a tile.
+  // The near fingerprints of the current tile.
   std::array<const Fingerprint*, kTile> near_;
   std::vector<Candidate> candidates_;
   // The bounds of candidates, by landmark.
   struct KnownLandmark {
-    // Its P_T at least.
+    // A lower bound of its P_T.
     float least = 0;
-    // Which match it is, or -1.
+    // The index of its match, or -1.
     std::int32_t match = -1;
     bool counted = false;
   };
-  // Of the journeys scanned.
+  // Landmarks of all scanned journeys.
   std::size_t landmark_count_ = 0;
-  // By landmark over all journeys.
+  // Indexed by landmark over all journeys.
   std::vector<KnownLandmark> known_;
   std::vector<float> positive_;
 };

@@ -7,7 +7,7 @@
 namespace homing {
 namespace {
 
-// Covers the rounding of float, twice over.
+// Twice the rounding error of float.
 constexpr double kBoundRounding = 1e-6;
 // Smaller bounds, times a ratio of numbers, would not be exact in float.
 constexpr double kLeastBound = 1e-25;
@@ -16,7 +16,7 @@ constexpr double kLeastBound = 1e-25;
 
 SurvivalBound::SurvivalBound(const DeviationModel& model) : table_{}, least_{} {
   table_[0] = 1;
-  // Beyond the last step any distance may lie: its least stays 0.
+  // The last step has no upper end: its lower bound stays 0.
   for (std::int32_t i = 1; i < kEntries; ++i) {
     const double squared = std::bit_cast<float>((kFirst + i) << kShift);
     const double nearer = Survival(model, std::sqrt(squared * (1 - kBoundRounding)));

@@ -14,20 +14,20 @@
 namespace homing {
 
 // Steps are 1/16 of an octave of the squared distance wide: the bounds are at most 1 - F of a
-// distance 3 % smaller, and at least that of one 3 % greater. 6.4 kB.
+// distance 3 % smaller, and at least that of one 3 % greater. 6.4 kB. Immutable.
 class SurvivalBound {
  public:
   explicit SurvivalBound(const DeviationModel& model);
 
-  // At least 1 - F of every distance whose square, computed in float, is `squared_px`.
+  // An upper bound of 1 - F for every distance whose square, computed in float, is `squared_px`.
   float At(float squared_px) const { return table_[static_cast<std::size_t>(IndexOf(squared_px))]; }
-  // At most 1 - F of each of them.
+  // A lower bound of 1 - F for the same distances.
   float LeastAt(float squared_px) const {
     return least_[static_cast<std::size_t>(IndexOf(squared_px))];
   }
-  // From this squared distance on, At is less than `share`.
+  // The squared distance, px^2, from which on At is less than `share`.
   float ReachOf(double share) const;
-  // Where At looks; for loops over many.
+  // Index of At's table entry, for loops over many distances.
   static std::int32_t IndexOf(float squared_px) {
     // The bits of a float that is not negative grow with it.
     const std::int32_t place = (std::bit_cast<std::int32_t>(squared_px) >> kShift) - kFirst;
@@ -36,10 +36,11 @@ class SurvivalBound {
   const float* table() const { return table_.data(); }
 
  private:
-  // Kept of the 23 bits behind the point.
+  // Bits of the 23-bit mantissa that the index keeps.
   static constexpr int kMantissaBits = 4;
   static constexpr int kShift = 23 - kMantissaBits;
-  // From 2^-24 px^2, below which the bound is 1, to 2^26, beyond which it stays.
+  // The table covers squared distances from 2^-24 px^2, below which the bound is 1, to 2^26 px^2,
+  // beyond which it is constant.
   static constexpr std::int32_t kFirst = (127 - 24) << kMantissaBits;
   static constexpr std::int32_t kEntries = 50 << kMantissaBits;
 

@@ -1,4 +1,4 @@
-// Where a ProfileLikelihood believes that the robot was when it compared profiles.
+// The believed place of the robot at the instant whose profiles a ProfileLikelihood compared.
 #include <algorithm>
 
 #include "homing/profile/profile_likelihood.h"
@@ -8,7 +8,7 @@ namespace homing {
 
 std::size_t ProfileLikelihood::LikeliestOffset() const {
   if (!compared_[0] || !compared_[1]) return kNoOffset;
-  // What was learnt since may favour an offset that was not tried.
+  // The belief may have moved to an offset that was not tried at this instant.
   std::size_t likeliest = kNoOffset;
   double most = -1;
   for (std::size_t offset = 0; offset < kViews; ++offset) {

@@ -1,4 +1,4 @@
-// What a cell adds to the distance of two flow profiles. The values were fitted to matched and
+// The cost of one cell in the distance of two flow profiles. The values were fitted to matched and
 // unmatched pairs (docs/algorithm.md).
 #ifndef HOMING_PROFILE_CELL_COSTS_H_
 #define HOMING_PROFILE_CELL_COSTS_H_
@@ -8,14 +8,14 @@
 
 namespace homing {
 
-// Of the share codes seen and stored. 0 to 60. What is gone says less than what has come: landmarks
-// vanish, and poor light hides.
+// Cost of the count codes seen and stored, 0 to 60. A loss of vectors costs less than a gain:
+// landmarks vanish, and poor light hides them.
 constexpr std::uint8_t ShareCost(std::uint8_t seen, std::uint8_t stored) {
   const std::uint8_t common = std::min(seen, stored);
   return static_cast<std::uint8_t>((stored - common) * 3 + (seen - common) * 4);
 }
 
-// Of the parallax codes, where both have vectors. 0 to 6.
+// Cost of the parallax codes where both profiles have vectors, 0 to 6.
 constexpr std::uint8_t ParallaxCost(std::uint8_t seen, std::uint8_t stored) {
   constexpr std::uint8_t kMost = 6;
   const std::uint8_t both = seen != 0 && stored != 0 ? 255 : 0;

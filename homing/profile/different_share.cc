@@ -21,7 +21,7 @@ constexpr double kDifferentPlaces = 4;
 // Distances to all steps of the map.
 using Distances = std::vector<std::uint16_t>;
 
-// In steps.
+// All in steps.
 struct Lengths {
   explicit Lengths(double correlation_steps)
       : stretch(std::lround(kStretchLengths * correlation_steps)),
@@ -31,13 +31,13 @@ struct Lengths {
   std::int64_t all() const { return stretch + (kPairs - 1) * spacing; }
 
   std::int64_t stretch;
-  // From one pair of places along the stretch to the next.
+  // Distance from one pair of places along the stretch to the next.
   std::int64_t spacing;
   // Places further apart are different.
   std::int64_t different;
 };
 
-// Of the place at the front of a stretch, and of the one at its back.
+// Distances of the place at the front of a stretch, and of the one at its back.
 struct PairRows {
   Distances front;
   Distances back;
@@ -69,7 +69,8 @@ struct Others {
   std::int64_t way = 1;
 };
 
-// Adds what each of them shares with the stretch that the rows are of, `per_unit` each.
+// Adds to `shares`, for each of the others, the change that it shares with the stretch of `pairs`,
+// times `per_unit`.
 void AddShares(std::span<const PairRows> pairs, const Others& others, const Lengths& lengths,
                float per_unit, std::vector<float>& shares) {
   shares.resize(
@@ -99,7 +100,8 @@ std::vector<Others> OthersOf(std::int64_t end, std::int64_t steps, const Lengths
           {end + apart, steps - 1 - all, -1}};
 }
 
-// By the sides that are compared, as RouteScale::different_share; negative: no other stretch.
+// The most similar other stretch, indexed by the compared sides as RouteScale::different_share;
+// negative: there is no other stretch.
 std::array<float, 4> MostShared(const JourneyMap& map, const RouteScale& route, std::int64_t end,
                                 const Lengths& lengths) {
   std::array<std::vector<PairRows>, 2> rows;

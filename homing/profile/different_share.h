@@ -1,5 +1,5 @@
-// How much of the change along one stretch of a map another stretch of the same map has too: what
-// a robot on a foreign route of the same kind would share with the map by chance.
+// Measures which fraction of the change along one stretch of a map recurs along another stretch of
+// the same map. A robot on a foreign route of the same kind would share about as much by chance.
 #ifndef HOMING_PROFILE_DIFFERENT_SHARE_H_
 #define HOMING_PROFILE_DIFFERENT_SHARE_H_
 
@@ -7,7 +7,7 @@
 
 namespace homing {
 
-// Fills in different_share. REQUIRES: all else of `route` is measured.
+// Fills in route.different_share. REQUIRES: all other members of `route` are measured.
 void MeasureDifferentShare(const JourneyMap& map, RouteScale& route);
 
 }  // namespace homing

@@ -15,7 +15,7 @@ double SumOf(const OffsetValues& values) {
   return std::accumulate(values.begin(), values.end(), 0.0);
 }
 
-// An offset that was not tried fits like the others.
+// Mass times fit of each offset. An offset that was not tried gets the mean fit of the tried ones.
 OffsetValues MassThatFits(const OffsetValues& believed, const OffsetValues& fit,
                           const std::array<bool, kPathOffsets.size()>& tried) {
   OffsetValues mass{};
@@ -66,11 +66,11 @@ void PathOffsets::Grow(std::int64_t step_count) {
   stretches_.resize(StretchesOf(step_count), Prior());
 }
 
-// No motion goes further than to the next stretch.
+// The robot moves by at most one stretch an observation.
 OffsetValues PathOffsets::Learn(std::size_t first, std::span<const OffsetValues> fits,
                                 const std::array<bool, kPathOffsets.size()>& tried) {
   OffsetValues all{};
-  // Of the stretches that the robot may be in next, from the one before `first` on.
+  // Mass in each stretch where the robot may be next, beginning with the stretch before `first`.
   std::vector<OffsetValues> about(fits.size() + 2, OffsetValues{});
   for (std::size_t i = 0; i < fits.size(); ++i) {
     const OffsetValues mass = MassThatFits(stretches_[first + i], fits[i], tried);

@@ -14,10 +14,9 @@ namespace homing {
 // One value for each of kPathOffsets.
 using OffsetValues = std::array<double, kPathOffsets.size()>;
 
-// Each stretch of the journey has its own belief: what the robot is taken to see at a wrong place
-// fits there under some wrong offset, which must not be expected at the right place too. The
-// belief goes where the robot goes, and is forgotten within some dozens of observations. Not
-// thread-safe.
+// Each stretch of the journey has its own belief, so that an offset learnt at a wrong place does
+// not bias the right one. The belief moves with the robot, and is forgotten within some dozens of
+// observations. Not thread-safe.
 class PathOffsets {
  public:
   // Steps of a stretch.
@@ -27,20 +26,21 @@ class PathOffsets {
   static std::size_t StretchesOf(std::int64_t steps) {
     return static_cast<std::size_t>((steps + kStretch - 1) / kStretch);
   }
-  // Before anything was seen.
+  // The belief before the first observation.
   static const OffsetValues& Prior();
 
-  // `mass` as shares, of which some is forgotten: the prior, where there is no mass.
+  // `mass` normalised and mixed with a little of the prior (forgetting); the prior if there is no
+  // mass.
   static OffsetValues Mix(const OffsetValues& mass);
 
-  // Takes up stretches at the end.
+  // Appends stretches until they cover `step_count` steps.
   void Grow(std::int64_t step_count);
   // Probability of each offset for a robot at a step of this stretch.
   const OffsetValues& of(std::size_t stretch) const { return stretches_[stretch]; }
 
-  // One observation. `fits`: of stretches from `first` on, the mass that was predicted there times
-  // how well it fits under each of the offsets that were `tried`; elsewhere the robot is not.
-  // Returns the mass that fits, by offset.
+  // Processes one observation. `fits`: for each stretch from `first` on and each of the `tried`
+  // offsets, the predicted mass times its likelihood; the robot is in no other stretch. Returns the
+  // sum over the stretches, by offset.
   OffsetValues Learn(std::size_t first, std::span<const OffsetValues> fits,
                      const std::array<bool, kPathOffsets.size()>& tried);
 

@@ -24,7 +24,7 @@ constexpr std::size_t kCells = FlowProfile::kCells;
 // Cells that are transposed at a time.
 constexpr std::size_t kTile = 16;
 
-// By code seen, then by code stored.
+// Costs indexed by seen code, then by stored code.
 struct CostTables {
   alignas(kCodes) std::array<std::array<std::uint8_t, kCodes>, kCodes> share{};
   alignas(kCodes) std::array<std::array<std::uint8_t, kCodes>, kCodes> parallax{};
@@ -53,7 +53,7 @@ struct Block {
   std::array<Row, kCells> parallax;
 };
 
-// A cell that counts, and the codes of what is seen there.
+// A cell that counts, and its seen codes.
 struct CountedCell {
   std::uint8_t cell = 0;
   std::uint8_t codes = 0;
@@ -62,14 +62,14 @@ struct CountedCell {
 // The cells of one view that count.
 class CountedCells {
  public:
-  // Which they are no branch could foresee: each is written wherever it could belong.
+  // Branches would be mispredicted, so each cell is written to every list where it may belong.
   explicit CountedCells(const ProfileView& view) {
     std::size_t full = 0;
     std::size_t empty = 0;
     for (std::uint8_t cell = 0; cell < kCells; ++cell) {
       const std::uint8_t codes = view.seen.cells[cell];
       cells_[full] = cells_[kCells - 1 - empty] = {cell, codes};
-      // Where nothing is seen there is no parallax to compare.
+      // A cell without seen vectors has no parallax to compare.
       const unsigned counts = view.covered[cell] & 1U;
       const unsigned has_parallax = codes >> 4U != 0 ? 1 : 0;
       full += counts & has_parallax;
@@ -108,7 +108,7 @@ const FlowProfile* ProfileAt(std::span<const FlowProfile* const> stored, std::si
   return stored[i];
 }
 
-// The last profile stands in for those that a block lacks.
+// Fills up an incomplete block with the last profile.
 template <typename Profiles>
 HOMING_AVX2 void Fill(Profiles stored, Block& block) {
   const __m256i low = _mm256_set1_epi8(15);
@@ -222,7 +222,7 @@ void ProfileDistancesByBlocks(std::span<const ProfileView> views,
 namespace homing {
 
 bool ProfileBlocksFit() { return false; }
-// Never called, then.
+// Never called without AVX2.
 void ProfileDistancesByBlocks(std::span<const ProfileView> /*views*/,
                               std::span<const FlowProfile> /*stored*/) {}
 void ProfileDistancesByBlocks(std::span<const ProfileView> /*views*/,

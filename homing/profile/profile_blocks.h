@@ -1,6 +1,5 @@
 // Distances of flow profiles, 32 stored ones at a time and cell by cell: the codes of a cell choose
-// from a table of 16 costs, which the machine looks up 32 times in one instruction. Source: own
-// design.
+// from a table of 16 costs, which the machine looks up 32 times in one instruction.
 #ifndef HOMING_PROFILE_PROFILE_BLOCKS_H_
 #define HOMING_PROFILE_PROFILE_BLOCKS_H_
 
@@ -10,7 +9,7 @@
 
 namespace homing {
 
-// This machine has what it takes: AVX2.
+// True if this machine has AVX2.
 bool ProfileBlocksFit();
 
 // As ProfileDistances. REQUIRES: ProfileBlocksFit().

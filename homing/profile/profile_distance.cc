@@ -10,7 +10,7 @@
 namespace homing {
 namespace {
 
-// Of the middle of the cell from the middle of the image, in halves of the image.
+// Distance of the cell's middle from the middle of the image, in halves of the image.
 double FromMiddle(int cell, int cells) { return std::abs((cell + 0.5) / cells - 0.5) * 2; }
 
 }  // namespace

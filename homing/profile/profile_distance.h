@@ -1,4 +1,4 @@
-// How unlike two flow profiles are.
+// The distance between two flow profiles.
 #ifndef HOMING_PROFILE_PROFILE_DISTANCE_H_
 #define HOMING_PROFILE_PROFILE_DISTANCE_H_
 
@@ -16,9 +16,9 @@ using CellMask = std::array<std::uint8_t, FlowProfile::kCells>;
 // The cells that an image magnified by `magnification` fills.
 CellMask CoveredCells(double magnification);
 
-// One view of what is seen, and how far it is from each of the stored profiles: over the covered
-// cells, the sum of 4 |gain of the count code| + 3 |loss of it| + where both have
-// vectors, |difference of the parallax codes|, at most 6. 0 to 10560.
+// One view of the seen profile, and its distance to each of the stored profiles: over the covered
+// cells, the sum of 4 |gain of the count code| + 3 |loss of it| + where both have vectors,
+// |difference of the parallax codes|, at most 6. 0 to 10560.
 struct ProfileView {
   const FlowProfile& seen;
   const CellMask& covered;
@@ -36,7 +36,7 @@ inline void ProfileDistances(const FlowProfile& seen, std::span<const FlowProfil
   ProfileDistances({&view, 1}, stored);
 }
 
-// The same cell after cell, on any machine.
+// The plain reference: the same distances cell after cell, on any machine.
 void PlainProfileDistances(const ProfileView& view, std::span<const FlowProfile> stored);
 
 }  // namespace homing

@@ -16,7 +16,7 @@ namespace {
 constexpr double kSlope = 2;
 constexpr double kNeutral = 1;
 constexpr double kOutlierFraction = 0.25;
-// A sample whose distances are all alike tells nothing apart.
+// Least deviation of a sample: distances that are all alike do not distinguish places.
 constexpr double kLeastDeviation = 0.02;
 constexpr int kWeights = 16;
 

@@ -1,4 +1,4 @@
-// What a distance between flow profiles says: the likelihood ratio of the true place against a
+// Converts a distance between flow profiles to the likelihood ratio of the true place against a
 // place at random.
 #ifndef HOMING_PROFILE_PROFILE_EVIDENCE_H_
 #define HOMING_PROFILE_PROFILE_EVIDENCE_H_
@@ -22,10 +22,11 @@ struct DistanceScale {
   }
 };
 
-// Of distances to many steps of the journeys, most of them of different places.
+// The scale of distances to many steps of the journeys, most of which are different places.
 DistanceScale ScaleOf(std::span<const std::uint16_t> sample);
 
-// The ratio of a distance that many deviations from the middle, to the power of `weight`. Positive.
+// A table: the likelihood ratio, to the power of `weight`, by distance from the middle in
+// deviations. Positive. Immutable.
 class ProfileRatio {
  public:
   // Logarithm of the greatest ratio of full weight.

@@ -7,7 +7,8 @@
 namespace homing {
 namespace {
 
-// Stored profiles that tell how far away those of other places are; at most twice as many.
+// Stored profiles that are sampled to estimate the distance to different places; at most twice as
+// many are used.
 constexpr std::int64_t kSamples = 256;
 // A less probable offset is tried only now and then, once the place is known.
 constexpr double kLeastOffset = 0.05;
@@ -102,9 +103,10 @@ void ProfileLikelihood::Compute(std::span<const JourneyRef> journeys, const Seen
   Weigh(predicted);
 }
 
-// The offset of the robot makes one side larger and the other smaller: one camera alone cannot tell
-// it from other changes, and is compared as it is. All offsets where any step is in question, else
-// the probable ones and one more in turn.
+// Chooses the offsets to try. An offset of the robot makes one side larger and the other smaller; a
+// single camera cannot distinguish this from other changes, so its view is compared unchanged.
+// While every step is possible, all offsets are tried; later the probable ones and one other in
+// turn.
 void ProfileLikelihood::Choose(std::span<const JourneyRef> journeys,
                                std::span<const StepMass> predicted) {
   bool all = true;
@@ -236,7 +238,7 @@ void ProfileLikelihood::Weigh(std::span<const StepMass> predicted) {
   }
 }
 
-// An offset under which the believed steps fit gains, there.
+// In each stretch, an offset gains if the believed steps fit under it.
 void ProfileLikelihood::Learn() {
   OffsetValues mass{};
   for (std::size_t i = 0; i < offsets_.size(); ++i) {

@@ -25,12 +25,12 @@ class ProfileLikelihood {
  public:
   ProfileLikelihood();
 
-  // Some journey has profiles of a side that is seen with enough vectors.
+  // True if some journey has profiles of a side that the robot sees with enough vectors.
   static bool CanCompare(std::span<const JourneyRef> journeys, const SeenProfiles& seen);
 
   // Measures journeys that are new or have grown much.
   void Grow(std::span<const JourneyRef> journeys);
-  // Of each journey.
+  // The scale of each journey.
   std::span<const RouteScale> routes() const { return routes_; }
 
   // `predicted`: by journey, the mass of its steps, or of those of its active window, before this
@@ -39,24 +39,25 @@ class ProfileLikelihood {
   // observation.
   void Compute(std::span<const JourneyRef> journeys, const SeenProfiles& seen,
                std::span<const StepMass> predicted, double weight);
-  // Ends the instant: updates the offset by what it says.
+  // Ends the instant: updates the belief about the offset.
   void Learn();
 
-  // By predicted step. Sides without profiles are neutral: 1.
+  // Likelihood ratio by predicted step. Sides without profiles are neutral: 1.
   std::span<const float> of(std::size_t journey) const { return likelihoods_[journey]; }
   // Sides that were compared.
   int compared() const { return (compared_[0] ? 1 : 0) + (compared_[1] ? 1 : 0); }
-  // What was seen at this instant at the likeliest of the steps `first` to `last`. REQUIRES: some
-  // of these steps are predicted.
+  // The views of this instant at the likeliest of the steps `first` to `last`. REQUIRES: some of
+  // these steps are predicted.
   BelievedInstant Believed(std::size_t journey, std::int64_t first, std::int64_t last) const;
   // Starts with the robot at this offset, as MeanOffset gives it.
   void StartAtOffset(double offset);
-  // Posterior mean of the offset, in distances of what is seen, to the left of the route.
+  // Posterior mean of the offset to the left of the route, in scene distances (profile_views.h).
   double MeanOffset() const;
 
  private:
   static constexpr std::size_t kViews = kPathOffsets.size();
-  // Of one side and view, by journey and predicted step; empty where the journey has no profiles.
+  // Distances of one side and view, by journey and predicted step; empty if the journey has no
+  // profiles.
   using Distances = std::vector<std::vector<std::uint16_t>>;
   struct SeenView {
     std::size_t view = 0;
@@ -67,18 +68,18 @@ class ProfileLikelihood {
   void Choose(std::span<const JourneyRef> journeys, std::span<const StepMass> predicted);
   void Measure(std::span<const JourneyRef> journeys, Side side, const ProfileMaker& seen,
                std::span<const StepMass> predicted);
-  // What the chosen offsets make of one side.
+  // The views of one side under the chosen offsets.
   std::vector<SeenView> ViewsOf(std::size_t side, const ProfileMaker& seen) const;
   // Multiplies the factors of one side's view into `factors`.
   void Multiply(std::size_t side, std::size_t view, std::size_t journey, std::int64_t first,
                 std::vector<float>& factors) const;
   void Weigh(std::span<const StepMass> predicted);
-  // Adds what `factors_` say of one offset to a journey's likelihoods and fits.
+  // Adds `factors_`, computed under one offset, to a journey's likelihoods and fits.
   void AddOffset(std::size_t offset, std::size_t journey, const StepMass& predicted);
-  // Probability of the offset if the robot is in the stretch, of those that are tried.
+  // Probability of the offset among the tried ones, if the robot is in the stretch.
   float WeightOf(std::size_t offset, std::size_t journey, std::size_t stretch) const;
 
-  // Of this instant, by side.
+  // Views of this instant, by side.
   std::array<std::vector<SeenView>, 2> views_;
   std::array<std::array<Distances, kViews>, 2> distances_;
   std::array<std::array<DistanceScale, kViews>, 2> scales_;
@@ -91,16 +92,16 @@ class ProfileLikelihood {
   std::vector<PathOffsets> offsets_;
   // Probability of each offset, wherever the robot is.
   OffsetValues anywhere_;
-  // By journey and stretch that holds a predicted step: predicted mass times factor.
+  // Predicted mass times factor, by journey and by stretch that holds a predicted step.
   std::vector<std::vector<OffsetValues>> fits_;
-  // By journey: the first of them.
+  // By journey: the first of these stretches.
   std::vector<std::size_t> first_stretch_;
-  // By journey: as measured, and with the steps that have come since.
+  // Scales by journey: as measured, and extended to the steps added since.
   std::vector<std::shared_ptr<const RouteScale>> measured_;
   std::vector<RouteScale> routes_;
   // First predicted step.
   std::vector<std::int64_t> first_steps_;
-  // Of this observation.
+  // Weight of this observation.
   double weight_ = 1;
   std::vector<float> factors_;
   std::vector<std::vector<float>> likelihoods_;

@@ -1,5 +1,6 @@
-// What the cameras see now, as the outbound robot would have seen it from other distances: a robot
-// that drives further left or right sees one side of the route larger and the other smaller.
+// The present views as the outbound robot would have seen them from other distances: a robot that
+// drives further left or right sees one side of the route larger and the other smaller. Offsets
+// have the unit "scene distance", the mean distance of the objects that the camera sees.
 #ifndef HOMING_PROFILE_PROFILE_VIEWS_H_
 #define HOMING_PROFILE_PROFILE_VIEWS_H_
 
@@ -12,12 +13,12 @@
 
 namespace homing {
 
-// Offsets from the outbound path, to the left of the route; in distances of what is seen there.
+// Offsets to the left of the outbound path, in scene distances.
 inline constexpr std::array<double, 7> kPathOffsets = {-0.35, -0.23, -0.11, 0, 0.11, 0.23, 0.35};
 inline constexpr std::size_t kNoOffset = kPathOffsets.size() / 2;
 static_assert(kPathOffsets[kNoOffset] == 0);
 
-// How much larger each view is than what the camera sees.
+// Magnification of each view relative to the camera's image.
 constexpr double MagnificationOf(std::size_t view) { return 1 + kPathOffsets[view]; }
 
 // The view of `side` of the route for the path offset of index `offset`: nearer on one side is

@@ -16,13 +16,14 @@ namespace {
 // Stored profiles that are compared with all others.
 constexpr std::int64_t kSelfSamples = 256;
 constexpr std::int64_t kMostLag = 200;
-// Part of a step's bias that is taken off. The whole would also take off what tells it apart.
+// Fraction of a step's bias that is subtracted. Subtracting all of it would also remove what
+// distinguishes the step.
 constexpr double kBiasPart = 0.5;
 // A map is measured again when it has grown by this factor.
 constexpr double kMuchGrown = 1.25;
 // Neighbours whose readings are averaged.
 constexpr double kReadingSteps = 3;
-// Of the signs of two kinds of flow, one must be this much steadier.
+// The sign of one kind of flow must be steadier than that of the other by this much.
 constexpr double kClearDirection = 0.2;
 // A sign that never changed over the map may still change now.
 constexpr double kSurestSign = 0.95;

@@ -1,6 +1,6 @@
-// What the map of one journey shows about itself: how alike its different places are, over how many
-// steps its profiles stay alike, and how far the robot moved at each step. The filter needs no
-// constant that depends on camera, scene or route length, because these figures take its place.
+// Figures measured on the map of one journey: how similar its different places are, over how many
+// steps its profiles stay similar, and how far the robot moved at each step. They replace constants
+// of the filter that would depend on camera, scene or route length.
 #ifndef HOMING_PROFILE_ROUTE_SCALE_H_
 #define HOMING_PROFILE_ROUTE_SCALE_H_
 
@@ -15,12 +15,13 @@
 
 namespace homing {
 
-// Where a camera looks, read from the signs of its flow over the journey (METHOD 7).
+// The direction in which a camera looks, read from the signs of its flow over the journey (METHOD
+// 7).
 enum class CameraDirection { kUnknown = 0, kAcross = 1, kAlong = 2, kMixed = 3 };
 
 // The odometer of one camera: log2 of the flow that measures motion. Which flow this is depends on
 // where the camera looks: the median length across the direction of travel, the spread along it,
-// and a weighted mean of both for an oblique camera.
+// and a weighted mean of both for an oblique camera. Immutable.
 class CameraOdometer {
  public:
   // Units of a reading: 1/20 octave.
@@ -33,8 +34,8 @@ class CameraOdometer {
 
   // kNone where the observation has no reading.
   std::int16_t Read(const OdometerReading& reading) const;
-  // +1: the camera moves past what it sees as it did when the map was made; -1: the other way; 0:
-  // not seen.
+  // +1: the camera moves past the scene in the same direction as at recording; -1: in the other
+  // direction; 0: unknown.
   int Way(const OdometerReading& reading) const;
   // Logarithm of the odds that the robot drives away from home, by Way and by how steady the sign
   // was over the map. 0: nothing is known.
@@ -50,16 +51,16 @@ class CameraOdometer {
   double along_ = 0;
 };
 
-// Over a stretch of so many correlation lengths a map has changed (SharedChange).
+// Length of the stretch over which SharedChange compares, correlation lengths.
 inline constexpr double kStretchLengths = 2;
 
-// Of the profiles of one side. Immutable.
+// Figures of one side's profiles. Immutable.
 struct SideScale {
   CameraOdometer odometer;
   // By step: mean reading of the steps around it.
   std::vector<std::int16_t> usual_readings;
-  // By step: half of what its distance to other places lies above the usual one. A step that is
-  // near to everything would attract every observation.
+  // By step: half of the difference between its distance to other places and the usual distance. A
+  // step that is near to everything would attract every observation.
   std::vector<std::int16_t> bias;
   // Median distances of places one correlation length apart, and kStretchLengths. At least 1.
   float length_distance = 1;
@@ -76,14 +77,15 @@ struct RouteScale {
   double correlation_steps = 1;
   // Deviation of the noise of log2(flow now / flow stored), octaves.
   double odometer_noise = 0;
-  // Share of the change over a stretch that the likest different place has too, median. By the
-  // sides that are compared: 1 left, 2 right, 3 both; 0 where a map is too short to tell.
+  // Median fraction of the change over a stretch that the most similar different place shares.
+  // Indexed by the compared sides: 1 left, 2 right, 3 both; 0 if the map is too short to measure
+  // it.
   std::array<float, 4> different_share{};
 };
 
 RouteScale MeasureRoute(const JourneyMap& map);
 
-// The same, kept with the map until it has grown much or has profiles of a new side.
+// The same, kept with the map until the map has grown much or has profiles of a new side.
 std::shared_ptr<const RouteScale> MeasuredScale(const JourneyMap& map);
 
 }  // namespace homing

@@ -6,10 +6,11 @@
 namespace homing {
 namespace {
 
-// A different place shares at least this much; and the threshold lies so much above what it shares.
+// Least fraction that a different place is taken to share, and the margin of the threshold above
+// that fraction.
 constexpr double kLeastShared = 0.14;
 constexpr double kAboveDifferent = 0.03;
-// Before it has moved a whole stretch, a robot is judged from this many correlation lengths on.
+// Correlation lengths after which the first, shorter stretch is compared.
 constexpr double kFirstLengths = 1;
 // Instants closer together than this part of the stretch are not kept.
 constexpr double kSpacing = 1.0 / 16;
@@ -36,7 +37,8 @@ double UsualDistance(const SideScale& side, double lengths) {
   return (1 - part) * double{side.length_distance} + part * double{side.stretch_distance};
 }
 
-// Of the change between both instants; none where no side can be compared.
+// The shared fraction of the change between both instants, less the threshold; none if no side can
+// be compared.
 std::optional<double> ShareOf(std::span<const JourneyRef> journeys, const RouteScale& route,
                               const BelievedInstant& now, const BelievedInstant& then) {
   const double lengths = std::abs(now.moved - then.moved) / route.correlation_steps;
@@ -79,7 +81,7 @@ std::optional<double> SharedChange::Add(std::span<const JourneyRef> journeys,
   if (past_.empty() || away(past_.back()) >= kSpacing * stretch) {
     past_.push_back(now);
   }
-  // A robot may drive to and fro.
+  // A robot that drives to and fro adds instants without leaving the stretch.
   if (past_.size() > kMostInstants) past_.pop_front();
   return shared;
 }

@@ -1,5 +1,6 @@
-// Whether the robot sees the map's changes: evidence of being on the route that no light, no camera
-// and no landmark that is near to everything can imitate. See docs/algorithm.md.
+// Measures whether the view changes along the way as the map does. This is evidence of being on the
+// route that neither light nor the camera nor an unspecific landmark can imitate. See
+// docs/algorithm.md.
 #ifndef HOMING_PROFILE_SHARED_CHANGE_H_
 #define HOMING_PROFILE_SHARED_CHANGE_H_
 
@@ -16,7 +17,7 @@
 
 namespace homing {
 
-// What was seen at one instant, and where the robot is believed to have been.
+// The views of one instant, and the robot's believed place at that instant.
 struct BelievedInstant {
   std::size_t journey = 0;
   std::int64_t step = 0;
@@ -27,17 +28,17 @@ struct BelievedInstant {
     const CellMask* covered = nullptr;
   };
   std::array<std::optional<Seen>, 2> seen{};
-  // Steps from where the robot was at the first instant; the sign tells the way.
+  // Steps moved since the first instant; the sign gives the direction.
   double moved = 0;
 };
 
 // Keeps the instants of the last stretch. Not thread-safe.
 class SharedChange {
  public:
-  // Between this instant and the one some correlation lengths before, the map changes and the view
-  // changes. Returns how much of the map's usual change they share, less what the likest different
-  // place of the same map shares: above 0 on the route. None while the robot has not moved so far.
-  // `routes`: the scales of `journeys`.
+  // Adds an instant. Compares the change of the view with that of the map since the instant some
+  // correlation lengths before. Returns the fraction of the map's usual change that both share,
+  // less the fraction that the most similar different place of the same map shares: above 0 on the
+  // route. None while the robot has not moved that far. `routes`: the scales of `journeys`.
   std::optional<double> Add(std::span<const JourneyRef> journeys,
                             std::span<const RouteScale> routes, const BelievedInstant& now);
 

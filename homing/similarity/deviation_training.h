@@ -25,9 +25,9 @@ struct TrainingOptions {
   // D ~ N(mean, deviation) m; draws under 2 m are drawn again.
   double distance_mean_m = 11;
   double distance_deviation_m = 3;
-  // Where the point is at t = 0 seen from the camera, along the travel and vertically, m; and the
-  // time after which the vector is observed, s, over one frame interval, s. Chosen so that the
-  // median over seeds is the paper's mu 2.24 and sigma 0.86.
+  // Position of the point at t = 0 relative to the camera, along the travel and vertically, m; the
+  // time after which the vector is observed, s; and the frame interval of the vector, s. Chosen so
+  // that the median over seeds is the paper's mu 2.24 and sigma 0.86.
   double lateral_offset_m = 2.75;
   double vertical_offset_m = 0.5;
   double elapsed_s = 1.1;

@@ -29,6 +29,30 @@ v1::FlowSettings ToProto(const FlowOptions& options);
 v1::LandmarkSettings ToProto(const LandmarkOptions& options);
 v1::JourneySettings ToProto(const JourneySettings& settings);
 
+// `Message` is v1::DeviationModel or v1::DeviationValues.
+template <typename Message>
+void FillDeviation(const DeviationModel& model, Message* message) {
+  message->set_mu(model.mu);
+  message->set_sigma(model.sigma);
+  message->set_observations(model.observations);
+  message->set_ks_distance(model.ks_distance);
+  message->set_width(model.width);
+  message->set_height(model.height);
+}
+
+// The reverse of FillDeviation; checks nothing.
+template <typename Message>
+DeviationModel DeviationOf(const Message& message) {
+  DeviationModel model;
+  model.mu = message.mu();
+  model.sigma = message.sigma();
+  model.observations = message.observations();
+  model.ks_distance = message.ks_distance();
+  model.width = message.width();
+  model.height = message.height();
+  return model;
+}
+
 }  // namespace homing::wire
 
 #endif  // PROTO_WIRE_SETTINGS_CONVERSION_H_

@@ -210,7 +210,7 @@ class AsyncClient:
                     break
                 except grpc.RpcError as error:
                     await _wait(retry, error)
-                    # The last one answered is sent again: flow goes on from it.
+                    # The last one answered is sent again: flow continues from it.
                     sender.begin(reported + 1, max(reported, 0))
                 finally:
                     call.cancel()

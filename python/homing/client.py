@@ -20,7 +20,7 @@ Seen = Union[Observation, View]
 
 
 class _Link:
-    """The requests of one stream: gRPC reads them on a thread of its own."""
+    """The requests of one stream: gRPC reads them on its own thread."""
 
     def __init__(self, sender: "_Sender", config: Any, wrap: Callable[[Any], Any], window: int):
         self._sender = sender
@@ -133,7 +133,7 @@ class Client:
         """Records a journey; gives an answer for each observation once it is durable. What became
         durable just before the link broke has no answer.
 
-        A broken link is restored. When the program runs again with the same writer, it goes on where
+        A broken link is restored. When the program runs again with the same writer, it continues where
         it stopped: the observations that the server has are left out, or, with `live`, new ones
         follow behind a break. `finish` closes the journey at the end.
         """
@@ -216,7 +216,7 @@ class Client:
                 if wait is None:
                     raise from_rpc(error) from None
                 time.sleep(wait)
-                # The last one answered is sent again: flow goes on from it.
+                # The last one answered is sent again: flow continues from it.
                 sender.begin(reported + 1, max(reported, 0))
             finally:
                 link.close()

@@ -24,7 +24,7 @@ class Outbox:
         self._reference = -1
 
     def begin(self, durable: int, reference: int) -> None:
-        """A new link: the server has all before `durable`, and flow goes on from `reference`."""
+        """A new link: the server has all before `durable`, and flow continues from `reference`."""
         if not self._begun:
             self._begun = True
             self._durable = durable

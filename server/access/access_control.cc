@@ -25,7 +25,7 @@ bool IsEmpty(const std::string& path) {
   return std::filesystem::file_size(path, error) == 0 && !error;
 }
 
-// A file may be read while it is being written. It is read once it was not changed for a second.
+// A file may be half written. It is read only after it was unchanged for a second.
 bool IsSettled(const std::string& path) {
   std::error_code error;
   const auto written = std::filesystem::last_write_time(path, error);
@@ -120,7 +120,7 @@ absl::StatusOr<std::string> AccessControl::IdentityOfToken(const Credentials& cr
   auto identity = tokens->Find(header.substr(kBearerSize));
   if (!identity) identity = FindLent(header.substr(kBearerSize));
   if (!identity) {
-    return Unauthenticated("BAD_TOKEN", "the token is not one of this server's");
+    return Unauthenticated("BAD_TOKEN", "this server does not know the token");
   }
   return *std::move(identity);
 }

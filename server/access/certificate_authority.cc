@@ -51,7 +51,7 @@ OpensslPtr<X509> CertificateFromPem(const std::string& pem) {
   return OpensslPtr<X509>(PEM_read_bio_X509(ReadingBio(pem).get(), nullptr, nullptr, nullptr));
 }
 
-// Random, so that two certificates never share one.
+// Sets a random serial number, so that no two certificates share one.
 bool SetSerial(X509* certificate) {
   BIGNUM* serial = BN_new();
   const bool set = BN_rand(serial, kSerialBits, BN_RAND_TOP_ONE, BN_RAND_BOTTOM_ANY) == 1 &&
@@ -70,7 +70,7 @@ bool AddExtension(X509* certificate, X509* issuer, int kind, const std::string& 
   return added;
 }
 
-// Names, dates, key; no issuer, no extension.
+// A certificate with names, dates and key, but without issuer and extensions.
 OpensslPtr<X509> Blank(const CertificateRequest& request, EVP_PKEY* key) {
   OpensslPtr<X509> certificate(X509_new());
   X509_NAME* subject = X509_get_subject_name(certificate.get());

@@ -22,17 +22,17 @@ struct CertificateRequest {
   std::string common_name;
   // As OpenSSL writes them: "URI:homing:robots/r1", "DNS:localhost", "IP:127.0.0.1".
   std::vector<std::string> names;
-  // For a server, else for a client.
+  // The certificate is for a server, else for a client.
   bool is_server = false;
-  // From now; negative: the past.
+  // Start of its validity from now on; negative: in the past.
   std::chrono::seconds begins_in{-300};
   std::chrono::seconds ends_in = std::chrono::hours(24 * 365);
 };
 
-// Keys are P-256. INTERNAL: OpenSSL fails.
+// Keys are P-256. INTERNAL: OpenSSL fails. Not thread-safe.
 class CertificateAuthority {
  public:
-  // With a new key.
+  // Makes an authority with a new key.
   static absl::StatusOr<CertificateAuthority> Make(const std::string& common_name,
                                                    std::chrono::seconds lifetime);
   // INVALID_ARGUMENT: not PEM, or the key of another certificate.
@@ -43,7 +43,7 @@ class CertificateAuthority {
   absl::Status Renew(std::chrono::seconds lifetime);
 
   absl::StatusOr<KeyAndCertificate> pem() const;
-  // INVALID_ARGUMENT: a name OpenSSL does not take.
+  // INVALID_ARGUMENT: OpenSSL does not accept a name.
   absl::StatusOr<KeyAndCertificate> Issue(const CertificateRequest& request) const;
   // A revocation list (PEM) that is valid for `lifetime`. It holds the entries of `previous` (PEM;
   // may be empty) and `revoked` (PEM certificates). INVALID_ARGUMENT: not PEM.

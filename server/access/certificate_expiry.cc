@@ -74,7 +74,7 @@ std::string ExpiryWarning(const CertificateExpiry& expiry, std::int64_t now_s) {
     return "";
   }
   if (left_s <= 0) {
-    return absl::StrCat(expiry.flag, ": ", expiry.path, " has ended; connections are refused");
+    return absl::StrCat(expiry.flag, ": ", expiry.path, " has expired; connections are refused");
   }
   return absl::StrCat(expiry.flag, ": ", expiry.path, " ends in ", left_s / kDayS,
                       " days; renew it (homing-server certs)");

@@ -19,11 +19,11 @@ struct CertificateExpiry {
   // The option that names the file, and the file.
   std::string flag;
   std::string path;
-  // Seconds since 1970: the end of the first certificate or list in the file to end.
+  // Seconds since 1970: the earliest end of the certificates or lists in the file.
   std::int64_t end_s = 0;
 };
 
-// One entry a file; files that cannot be read are left out. Reads them anew each time.
+// Reads all files. Returns one entry a file; files that cannot be read are left out.
 std::vector<CertificateExpiry> ReadExpiries(const CertificateFiles& files);
 
 // A text for the operator when `expiry` is less than 30 days away at `now_s`, or past; else empty.

@@ -30,7 +30,7 @@ enum class Standing {
   kOther,
 };
 
-// The table.
+// Looks up the table of rights.
 bool Allows(Role role, Right right, Standing standing);
 // `role` may call the method for any journey.
 inline bool AllowsAll(Role role, Right right) { return Allows(role, right, Standing::kOther); }

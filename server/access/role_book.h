@@ -10,6 +10,7 @@
 
 namespace homing::server {
 
+// Immutable.
 class RoleBook {
  public:
   // Empty: every identity has DefaultRole.

@@ -9,7 +9,7 @@
 namespace homing::server {
 namespace {
 
-// The parser's description may quote a secret from the file: only the line number is reported.
+// Only the line number is reported: the parser's description may quote a secret from the file.
 absl::StatusOr<toml::table> Parse(const std::string& flag, const std::string& path,
                                   const std::string& text) {
   try {

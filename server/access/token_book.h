@@ -22,7 +22,7 @@ absl::StatusOr<std::string> MakeToken();
 std::string ToText(const TokenHash& hash);
 
 // Hashes of tokens with their identities. An identity may have several tokens, so that one can be
-// replaced without an interruption.
+// replaced without an interruption. Immutable.
 class TokenBook {
  public:
   // Empty: no token is valid.

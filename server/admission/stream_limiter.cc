@@ -8,13 +8,13 @@
 
 namespace homing::server {
 
-StreamLimiter::Place::Place(StreamLimiter* limiter, std::string robot)
+StreamLimiter::Slot::Slot(StreamLimiter* limiter, std::string robot)
     : limiter_(limiter), robot_(std::move(robot)) {}
 
-StreamLimiter::Place::Place(Place&& other) noexcept
+StreamLimiter::Slot::Slot(Slot&& other) noexcept
     : limiter_(std::exchange(other.limiter_, nullptr)), robot_(std::move(other.robot_)) {}
 
-StreamLimiter::Place& StreamLimiter::Place::operator=(Place&& other) noexcept {
+StreamLimiter::Slot& StreamLimiter::Slot::operator=(Slot&& other) noexcept {
   if (this != &other) {
     Leave();
     limiter_ = std::exchange(other.limiter_, nullptr);
@@ -23,13 +23,13 @@ StreamLimiter::Place& StreamLimiter::Place::operator=(Place&& other) noexcept {
   return *this;
 }
 
-void StreamLimiter::Place::Leave() {
+void StreamLimiter::Slot::Leave() {
   if (StreamLimiter* const limiter = std::exchange(limiter_, nullptr)) {
     limiter->Leave(robot_);
   }
 }
 
-absl::StatusOr<StreamLimiter::Place> StreamLimiter::Enter(const std::string& robot) {
+absl::StatusOr<StreamLimiter::Slot> StreamLimiter::Enter(const std::string& robot) {
   const MutexLock lock(mutex_);
   if (max_all_ > 0 && open_ >= max_all_) {
     return WithReason(absl::ResourceExhaustedError(
@@ -47,7 +47,7 @@ absl::StatusOr<StreamLimiter::Place> StreamLimiter::Enter(const std::string& rob
   if (!robot.empty()) {
     ++of_robot_[robot];
   }
-  return Place(this, robot);
+  return Slot(this, robot);
 }
 
 void StreamLimiter::Leave(const std::string& robot) {

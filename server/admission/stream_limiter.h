@@ -15,14 +15,14 @@ namespace homing::server {
 // Thread-safe.
 class StreamLimiter {
  public:
-  // Holds the place of one open stream; the destructor frees it.
-  class Place {
+  // Holds the slot of one open stream; the destructor frees it.
+  class Slot {
    public:
-    Place() = default;
-    Place(StreamLimiter* limiter, std::string robot);
-    Place(Place&& other) noexcept;
-    Place& operator=(Place&& other) noexcept;
-    ~Place() { Leave(); }
+    Slot() = default;
+    Slot(StreamLimiter* limiter, std::string robot);
+    Slot(Slot&& other) noexcept;
+    Slot& operator=(Slot&& other) noexcept;
+    ~Slot() { Leave(); }
     void Leave();
 
    private:
@@ -34,7 +34,7 @@ class StreamLimiter {
       : max_all_(limits.max_streams), max_robot_(limits.max_robot_streams) {}
 
   // `robot` empty: the stream counts in the total only. RESOURCE_EXHAUSTED naming the limit.
-  absl::StatusOr<Place> Enter(const std::string& robot);
+  absl::StatusOr<Slot> Enter(const std::string& robot);
   int open() const;
 
  private:

@@ -1,4 +1,5 @@
-// Where a stream handles its next request: on the thread that read it, or in the worker pool.
+// Decides where a stream handles its next request: on the thread that read it, or in the worker
+// pool.
 #ifndef SERVER_BASE_INLINE_POLICY_H_
 #define SERVER_BASE_INLINE_POLICY_H_
 

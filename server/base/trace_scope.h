@@ -14,7 +14,7 @@ class TraceScope {
   TraceScope(const TraceScope&) = delete;
   TraceScope& operator=(const TraceScope&) = delete;
 
-  // Of the calling thread; null: none.
+  // The calling thread's trace; null: none.
   static const TraceParent* Current() { return Slot(); }
 
  private:

@@ -67,7 +67,7 @@ class FleetIndex {
     // The first step that is not in the index.
     std::int64_t next_step = 0;
   };
-  // How many journeys have these settings.
+  // Number of journeys that have these settings.
   struct Settings {
     JourneySettings settings;
     std::int64_t journeys = 0;

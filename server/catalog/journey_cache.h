@@ -22,7 +22,7 @@ class JourneyCache {
   std::shared_ptr<LiveJourney> Find(const std::string& name);
   void Insert(const std::string& name, std::shared_ptr<LiveJourney> journey);
   void Erase(const std::string& name);
-  // By name; does not count as a use.
+  // The journeys by name; does not count as a use.
   std::map<std::string, std::shared_ptr<LiveJourney>> All();
   // Steady time, for leases; an earlier time than before is ignored.
   void SetTime(TimePoint now);

@@ -28,7 +28,7 @@ using JourneyFilter = std::function<bool(const storage::JourneyRecord&)>;
 struct WriterClaim {
   std::shared_ptr<LiveJourney> journey;
   std::uint64_t claim = 0;
-  // For JourneyAppend.
+  // The epoch to set in JourneyAppend.
   std::int64_t epoch = 0;
 };
 
@@ -101,7 +101,7 @@ class JourneyCatalog {
  private:
   // Serialises creation, loading, finishing and deletion of one journey.
   Mutex& StripeOf(const std::string& name);
-  // Without its map. REQUIRES: the stripe is locked.
+  // Opens the journey without its map. REQUIRES: the stripe is locked.
   absl::StatusOr<std::shared_ptr<LiveJourney>> OpenLocked(const std::string& name);
   absl::StatusOr<storage::JourneyRecord> GetSameOrExists(const storage::JourneyRecord& record);
 

@@ -6,10 +6,10 @@
 namespace homing::server {
 
 absl::Status WriterReplaced(const std::string& journey) {
-  return WithReason(
-      absl::AbortedError(absl::StrCat(
-          "journey: \"", journey, "\" was taken over by another stream; one stream may write it")),
-      {"WRITER_REPLACED", {}});
+  return WithReason(absl::AbortedError(absl::StrCat(
+                        "journey: \"", journey,
+                        "\" was taken over by another stream; only one stream may write it")),
+                    {"WRITER_REPLACED", {}});
 }
 
 absl::Status JourneyDeleted(const std::string& journey) {

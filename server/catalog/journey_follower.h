@@ -11,7 +11,7 @@
 
 namespace homing::server {
 
-// One thread that asks the store which journeys changed. A journey that is recorded through another
+// One thread asks the store which journeys changed. A journey that is recorded through another
 // server is localised on through this one after at most one interval and one read.
 class JourneyFollower {
  public:

@@ -126,7 +126,7 @@ class LiveJourney {
   WriterLease lease_ HOMING_GUARDED_BY(mutex_);
   // Claim has not returned yet.
   bool is_claiming_ HOMING_GUARDED_BY(mutex_) = false;
-  // Of the last claim here; 0: none.
+  // Epoch of the last claim in this server; 0: none.
   std::int64_t epoch_ HOMING_GUARDED_BY(mutex_) = 0;
   // JourneyMark::revision of record_; -1: unknown.
   std::int64_t revision_ HOMING_GUARDED_BY(mutex_) = -1;

@@ -16,7 +16,7 @@ absl::Status LiveJourney::Follow(const storage::JourneyMark& mark) {
     const MutexLock lock(mutex_);
     // While a claim is being made here, the store may know its epoch before this object does.
     is_replaced = epoch_ != 0 && mark.epoch > epoch_ && !is_claiming_;
-    // Not by record_, which may have caught up without ending the claim.
+    // lease_ decides, not record_, which may have caught up without ending the claim.
     const bool is_over = is_finished && lease_.is_held();
     const bool is_behind = mark.next_sequence > record_.next_sequence && appends_under_way_ == 0;
     const bool is_same = mark.state == record_.state && mark.revision == revision_;

@@ -37,7 +37,7 @@ absl::Status WriterLease::CheckFree(const std::string& writer_id, TimePoint now)
   return WithReason(absl::AbortedError(absl::StrCat(
                         "writer_id: \"", writer_id,
                         "\" must wait: another writer holds the journey, and its lease of ",
-                        kDuration.count(), " s lasts ", left, " ms more")),
+                        kDuration.count(), " s ends in ", left, " ms")),
                     {"WRITER_LEASE_HELD", {{"lease_left_ms", absl::StrCat(left)}}});
 }
 
@@ -55,9 +55,8 @@ absl::Status WriterLease::CheckNoStream(TimePoint now) const {
   if (!active_ || !open_ || now - renewed_ >= kDuration) {
     return absl::OkStatus();
   }
-  return WithReason(
-      absl::AbortedError("the journey is being recorded; set force to end the stream that does"),
-      {"WRITER_LEASE_HELD", {}});
+  return WithReason(absl::AbortedError("a stream records the journey; set force to end it"),
+                    {"WRITER_LEASE_HELD", {}});
 }
 
 WriterLease::Evict WriterLease::Release() {

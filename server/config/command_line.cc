@@ -1,3 +1,4 @@
+// ParseCommandLine of server_options.h.
 #include <toml++/toml.h>
 #include <CLI/CLI.hpp>
 #include <iostream>
@@ -69,7 +70,7 @@ CLI::App* AddTokenCommand(CLI::App* app, TokenOrder* order) {
   return token;
 }
 
-// A value of the file in the form of the command line.
+// Converts a value of the file to the text that a flag would have.
 std::string TextOf(const toml::node& node) {
   if (const auto text = node.value<std::string>(); text && node.is_string()) {
     return *text;
@@ -103,9 +104,25 @@ void ApplyFile(const std::string& path, CLI::App* app) {
   }
 }
 
-// The server of the same options and environment: its address and its certificate. A server that
-// asks for certificates of its clients needs --cert and --key: one of `certs` is good for a server
-// alone.
+CLI::App* AddHealthCheck(CLI::App* app, ServerCommand* command) {
+  CLI::App* health = app->add_subcommand("healthcheck", "Exit 0 if a server is serving, else 1");
+  health->fallthrough();
+  health->add_option("--server", command->health_server, "Address; by default that of --listen");
+  health
+      ->add_option("--ca", command->health_ca,
+                   "CA of the server's certificate, PEM: use TLS; by default the certificate of "
+                   "--tls-cert is trusted")
+      ->envname("HOMING_HEALTH_CA");
+  health->add_option("--cert", command->health_cert, "Certificate to show, PEM")
+      ->envname("HOMING_HEALTH_CERT");
+  health->add_option("--key", command->health_key, "Its private key, PEM")
+      ->envname("HOMING_HEALTH_KEY");
+  return health;
+}
+
+// Sets the address and the trusted certificate from the server's own options and environment. A
+// server that requires client certificates needs --cert and --key too, because the server's
+// certificate from `certs` is not valid for a client.
 void ChooseHealthCheck(ServerCommand* command) {
   const ServerOptions& server = command->options;
   const bool own = command->health_server.empty();
@@ -135,18 +152,7 @@ ServerCommand ParseCommandLine(int argc, const char* const* argv) {
       ->envname("HOMING_CONFIG");
   app.add_flag("--check-config", check_config, "Check options and end");
   app.set_version_flag("--version", "homing-server " HOMING_VERSION);
-  CLI::App* health = app.add_subcommand("healthcheck", "Exit 0 if a server is serving, else 1");
-  health->fallthrough();
-  health->add_option("--server", command.health_server, "Address; by default that of --listen");
-  health
-      ->add_option("--ca", command.health_ca,
-                   "CA of the server's certificate, PEM: use TLS; by default the certificate of "
-                   "--tls-cert is trusted")
-      ->envname("HOMING_HEALTH_CA");
-  health->add_option("--cert", command.health_cert, "Certificate to show, PEM")
-      ->envname("HOMING_HEALTH_CERT");
-  health->add_option("--key", command.health_key, "Its private key, PEM")
-      ->envname("HOMING_HEALTH_KEY");
+  CLI::App* health = AddHealthCheck(&app, &command);
   const StoreCommands store(&app, &command);
   CLI::App* certs = AddCertsCommand(&app, &command.certificates);
   CLI::App* token = AddTokenCommand(&app, &command.token);

@@ -2,7 +2,6 @@
 
 #include <grpcpp/grpcpp.h>
 #include <openssl/pem.h>
-#include <openssl/x509v3.h>
 
 #include <chrono>
 #include <cstdlib>
@@ -13,6 +12,7 @@
 #include "homing/base/host_port.h"
 #include "homing/base/status_macros.h"
 #include "server/access/flag_file.h"
+#include "server/access/openssl_handle.h"
 
 namespace homing::server {
 namespace {
@@ -23,17 +23,13 @@ absl::StatusOr<std::string> ReadPem(const std::string& flag, const std::string& 
   return path.empty() ? absl::StatusOr<std::string>("") : ReadFlagFile(flag, path);
 }
 
-// A name that the certificate is made out to; empty: none.
+// A name for which the certificate is valid; empty: it has none.
 std::string NameIn(const std::string& pem) {
-  const std::unique_ptr<BIO, int (*)(BIO*)> bytes(
-      BIO_new_mem_buf(pem.data(), static_cast<int>(pem.size())), &BIO_free);
-  const std::unique_ptr<X509, void (*)(X509*)> certificate(
-      PEM_read_bio_X509(bytes.get(), nullptr, nullptr, nullptr), &X509_free);
+  const OpensslPtr<X509> certificate(
+      PEM_read_bio_X509(ReadingBio(pem).get(), nullptr, nullptr, nullptr));
   if (certificate == nullptr) return "";
-  const std::unique_ptr<GENERAL_NAMES, void (*)(GENERAL_NAMES*)> names(
-      static_cast<GENERAL_NAMES*>(
-          X509_get_ext_d2i(certificate.get(), NID_subject_alt_name, nullptr, nullptr)),
-      &GENERAL_NAMES_free);
+  const OpensslPtr<GENERAL_NAMES> names(static_cast<GENERAL_NAMES*>(
+      X509_get_ext_d2i(certificate.get(), NID_subject_alt_name, nullptr, nullptr)));
   for (int i = 0; names != nullptr && i < sk_GENERAL_NAME_num(names.get()); ++i) {
     const GENERAL_NAME* name = sk_GENERAL_NAME_value(names.get(), i);
     if (name->type != GEN_DNS) continue;

@@ -12,9 +12,9 @@ namespace homing::server {
 struct HealthCheckFiles {
   // CA of the server's certificate.
   std::string ca;
-  // Or the certificate itself, for any host.
+  // Instead of a CA: the server's certificate itself, valid for any host.
   std::string trusted;
-  // To show.
+  // The client's own certificate.
   std::string cert;
   std::string key;
 };

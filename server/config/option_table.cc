@@ -29,9 +29,9 @@ const std::array kOptions = {
     ServerOption{"http", HOMING_OPTION(http),
                  "Address of the console and of GET /metrics; \"off\": none"},
     ServerOption{"http-host", HOMING_OPTION(http_host),
-                 "Names, with commas, by which browsers reach the console besides addresses"},
+                 "Host names of the console, separated by commas; addresses always work"},
     ServerOption{"http-user-header", HOMING_OPTION(http_user_header),
-                 "Header in which a proxy, which alone may reach --http, names its user"},
+                 "Header in which a proxy names its user; only the proxy may reach --http"},
     ServerOption{"tls-cert", HOMING_OPTION(tls_cert), "Certificate chain, PEM"},
     ServerOption{"tls-key", HOMING_OPTION(tls_key), "Its private key, PEM"},
     ServerOption{"tls-client-ca", HOMING_OPTION(tls_client_ca),
@@ -40,7 +40,7 @@ const std::array kOptions = {
     ServerOption{"tls-crl-dir", HOMING_OPTION(tls_crl_dir),
                  "Folder of revocation lists, PEM; each issuer must have one"},
     ServerOption{"tokens", HOMING_OPTION(tokens),
-                 "File of bearer tokens, as `homing-server token` makes it"},
+                 "File of bearer tokens, made by `homing-server token`"},
     ServerOption{"roles", HOMING_OPTION(roles),
                  "File of roles: [roles] \"robots/ID\" = \"localise-only\""},
     ServerOption{"reload-s", HOMING_OPTION(reload_s),
@@ -84,8 +84,8 @@ const std::array kOptions = {
     ServerOption{"workers", HOMING_OPTION(workers), "Threads that compute; 0: one a core", 0, 1024,
                  "threads"},
     ServerOption{"max-connection-age-s", HOMING_OPTION(max_connection_age_s),
-                 "A connection this old is closed, so that clients spread over several servers "
-                 "again, s; 0: never",
+                 "Age at which a connection is closed, so that clients spread over several "
+                 "servers, s; 0: never",
                  0, 86'400, "s"},
     ServerOption{"drain-ms", HOMING_OPTION(drain_ms), "Time for streams to end at shutdown, ms", 0,
                  600'000, "ms"},
@@ -110,7 +110,7 @@ Value ValueOf(const ServerOption& option, const ServerOptions& options) {
   return option.value(const_cast<ServerOptions&>(options));
 }
 
-// Of numbers.
+// REQUIRES: IsNumber(value).
 std::int64_t NumberOf(const Value& value) {
   const auto* small = std::get_if<int*>(&value);
   return small != nullptr ? **small : *std::get<std::int64_t*>(value);

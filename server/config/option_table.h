@@ -34,7 +34,7 @@ struct ServerOption {
 void AddServerOptions(CLI::App* app, ServerOptions* options);
 // INVALID_ARGUMENT naming the first number out of its range.
 absl::Status CheckRanges(const ServerOptions& options);
-// As the TOML file would have it, a line an option.
+// The options as a TOML file, one line each.
 std::string ToToml(const ServerOptions& options);
 // Calls `set` for each option that is a limit.
 void ForEachLimit(const ServerOptions& options,

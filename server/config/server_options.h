@@ -33,11 +33,14 @@ struct ServerOptions {
   // Address of the console and of GET /metrics, host and port; "off" or empty: none. With tls_cert
   // it speaks TLS.
   std::string http = "off";
-  // http has its default: start without it if the address is not available.
+  // `http` is not set but has its default: the server starts without it if the address is not
+  // available.
   bool http_optional = false;
-  // Names, separated by commas, by which browsers reach it; "localhost" and addresses are known.
+  // Names, separated by commas, by which browsers reach the console; "localhost" and addresses need
+  // not be listed.
   std::string http_host;
-  // The header in which a proxy, which alone may reach it, names its user: "operators/USER".
+  // The header in which a proxy names its user: "operators/USER". Only the proxy may reach `http`
+  // then.
   std::string http_user_header;
   Limits limits;
   // Largest message accepted, bytes.
@@ -48,8 +51,8 @@ struct ServerOptions {
   int max_vectors = 100'000;
   // Threads that compute; 0: one a core.
   int workers = 0;
-  // A connection this old is closed, with 10 s for its streams, so that clients spread over the
-  // servers again; 0: never. s.
+  // Age at which a connection is closed, with 10 s for its streams, so that clients spread over the
+  // servers again, s. 0: never.
   int max_connection_age_s = 0;
   // Time for streams to end at shutdown, ms.
   int drain_ms = 5000;
@@ -89,7 +92,7 @@ struct ServerCommand {
   // kHealthCheck: the address, and the CA of its certificate (empty: no TLS).
   std::string health_server;
   std::string health_ca;
-  // Instead of a CA: the very certificate of the server.
+  // Instead of a CA: the server's certificate itself.
   std::string health_trusted;
   std::string health_cert;
   std::string health_key;

@@ -12,7 +12,7 @@
 namespace homing::server {
 namespace {
 
-// The commands take a path, too.
+// The commands accept a plain path, too.
 std::string PathOf(const std::string& url) { return storage::ParseDatabaseUrl(url).value_or(url); }
 
 int ReportFailure(const absl::Status& status) {
@@ -48,11 +48,12 @@ void ReportDiagnosis(const std::string& path, const storage::Diagnosis& diagnosi
 }  // namespace
 
 StoreCommands::StoreCommands(CLI::App* app, ServerCommand* command)
-    : doctor_(app->add_subcommand("doctor", "Check a database; exit 0 if all of it is whole")),
-      backup_(app->add_subcommand("backup", "Copy a database, while a server uses it or not")) {
+    : doctor_(app->add_subcommand("doctor", "Check a database; exit 0 if it is undamaged")),
+      backup_(app->add_subcommand("backup", "Copy a database; a server may be using it")) {
   doctor_->fallthrough();
   doctor_->add_option("file", command->store_path, "By default that of --database");
-  doctor_->add_option("--salvage", command->target_path, "New file: write what is whole into it");
+  doctor_->add_option("--salvage", command->target_path,
+                      "New file: write the undamaged journeys and models into it");
   backup_->fallthrough();
   backup_->add_option("to", command->target_path, "New file")->required();
 }
@@ -71,7 +72,8 @@ int RunDoctor(const std::string& path, const std::string& salvage_to) {
       salvage_to.empty() ? storage::Examine(path) : storage::Salvage(path, salvage_to);
   if (!diagnosis.ok()) return ReportFailure(diagnosis.status());
   ReportDiagnosis(path, *diagnosis);
-  if (!salvage_to.empty()) std::cout << "what is whole is in " << salvage_to << '\n';
+  if (!salvage_to.empty())
+    std::cout << "the undamaged journeys and models are in " << salvage_to << '\n';
   return IsWhole(*diagnosis) ? 0 : 1;
 }
 

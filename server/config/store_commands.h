@@ -9,12 +9,12 @@
 
 namespace homing::server {
 
-// Adds the subcommands to the command line.
+// Adds the subcommands to the command line. Not thread-safe.
 class StoreCommands {
  public:
   // Both must outlive the object.
   StoreCommands(CLI::App* app, ServerCommand* command);
-  // After parsing: sets `command` and returns true if one of the subcommands was given.
+  // Call it after parsing: sets `command` and returns true if one of the subcommands was given.
   bool Choose(ServerCommand* command) const;
 
  private:

@@ -11,7 +11,7 @@ namespace {
 
 using google::protobuf::util::TimeUtil;
 
-// Half of the time in which a lost robot must be seen.
+// Half of the time within which a lost robot must be shown.
 constexpr std::chrono::milliseconds kPulse{500};
 
 // The watchers that still exist; the others are removed.
@@ -55,7 +55,7 @@ void FleetBoard::Presence::ReportAnswer(const v1::LocalizeResponse& answer, v1::
     NoteOutcome(answer, board_->now_ns_(), &robot);
     board_->NoteSeen(entry);
     robot.set_observation_count(robot.observation_count() + 1);
-    // Most robots are not watched: the copy with all matches is then not made.
+    // Skips the copy with all matches, since most robots are not watched.
     entry->update.response.Clear();
     if (belief.masses_size() == 0) return;
     *entry->update.response.mutable_answer() = answer;

@@ -1,5 +1,5 @@
-// The live state of all robots: what each does, its last answer, and since when it is lost. It is
-// kept in memory alone.
+// The live state of all robots: the activity of each, its last answer, and since when it is lost.
+// It is kept in memory only.
 #ifndef SERVER_FLEET_FLEET_BOARD_H_
 #define SERVER_FLEET_FLEET_BOARD_H_
 
@@ -72,7 +72,7 @@ class FleetBoard {
   // The robots that changed after the change `since`, in order of name. Returns the number of the
   // last change.
   std::int64_t ChangesSince(std::int64_t since, std::vector<v1::Robot>* changed) const;
-  // The newest answer; without any the robot's state, under number 0.
+  // The newest answer; before the first one the robot's state, with number 0.
   Update Newest(const std::string& robot) const;
 
   // Wakes `watcher` after changes: of one robot at each answer, of all robots (empty name) at most

@@ -19,7 +19,7 @@ class Status;
 namespace homing::server {
 
 struct ApiAnswer {
-  // Of HTTP.
+  // The HTTP status code.
   int status = 200;
   std::string json;
 };

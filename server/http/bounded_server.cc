@@ -17,13 +17,13 @@ namespace {
 constexpr std::chrono::seconds kIdleTime{2};
 constexpr std::chrono::seconds kRequestTime{5};
 constexpr std::size_t kMaxHeaders = 64 << 10;
-// Of one connection.
+// Most requests of one connection.
 constexpr std::size_t kMaxRequests = 1000;
 
-// Of the body that a request says to have; a chunked one has at least a byte.
+// The body's size as the request declares it; a chunked body has at least one byte.
 std::uint64_t BodyBytes(const httplib::Request& request) {
   if (request.has_header("Transfer-Encoding")) {
-    // A proxy may see another end of it.
+    // Two declarations: a proxy may see another end of the body, so the connection is closed.
     return request.has_header("Content-Length") ? std::numeric_limits<std::uint32_t>::max() : 1;
   }
   return std::strtoull(request.get_header_value("Content-Length").c_str(), nullptr, 10);
@@ -40,13 +40,13 @@ BoundedServer::BoundedServer() {
     ::setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof(yes));
   });
   set_payload_max_length(kMaxBody);
-  // What its answers say.
+  // The library announces these limits in its answers.
   set_keep_alive_timeout(kIdleTime.count());
   set_keep_alive_max_count(kMaxRequests);
 }
 
 absl::Status BoundedServer::UseCertificate(const std::string& certificate, const std::string& key) {
-  std::shared_ptr<SSL_CTX> context(SSL_CTX_new(TLS_server_method()), ContextFree());
+  std::shared_ptr<SSL_CTX> context(SSL_CTX_new(TLS_server_method()), OpensslFree());
   SSL_CTX_set_min_proto_version(context.get(), TLS1_2_VERSION);
   SSL_CTX_set_options(context.get(), SSL_OP_NO_RENEGOTIATION | SSL_OP_NO_COMPRESSION);
   if (SSL_CTX_use_certificate_chain_file(context.get(), certificate.c_str()) != 1 ||
@@ -99,14 +99,14 @@ bool BoundedServer::Serve(socket_t socket) {
   bool closed = false;
   for (std::size_t left = kMaxRequests; left > 0 && served && !closed; --left) {
     if (svr_sock_ == INVALID_SOCKET || !stream.AwaitRequest()) break;
-    // Also that of a request that could not be understood.
+    // Stays so if the request cannot be parsed: the connection is then closed.
     std::uint64_t body_end = std::numeric_limits<std::uint64_t>::max();
     served = process_request(stream, left == 1, closed, [&](httplib::Request& request) {
-      // The library would unpack it without a limit.
+      // The library would decompress the body without a limit.
       request.headers.erase("Content-Encoding");
       body_end = stream.consumed() + BodyBytes(request);
     });
-    // The body of a request that was refused must not be taken for the next request.
+    // The body of a refused request must not be parsed as the next request.
     if (stream.consumed() < body_end) break;
   }
   return served;

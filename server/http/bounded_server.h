@@ -1,4 +1,4 @@
-// The library's HTTP server with bounds on what one client takes of it.
+// The library's HTTP server with limits for each client.
 #ifndef SERVER_HTTP_BOUNDED_SERVER_H_
 #define SERVER_HTTP_BOUNDED_SERVER_H_
 
@@ -15,34 +15,32 @@
 
 namespace homing::server {
 
+// The library calls the handlers on up to kThreads threads at a time. UseCertificate is
+// thread-safe.
 class BoundedServer final : public httplib::Server {
  public:
   // A thread a connection: browsers keep some open, and each event stream holds one.
   static constexpr std::size_t kThreads = 64;
-  // Of one address: the others still find a thread.
+  // Most connections of one address, so that other addresses still find a thread.
   static constexpr std::size_t kMostOfOneAddress = 48;
   static constexpr std::size_t kMaxBody = 1 << 20;
 
   BoundedServer();
 
   // Serves TLS with these PEM files from the next connection on. INVALID_ARGUMENT: they cannot be
-  // used; what was before stays.
+  // used; the previous ones stay in use.
   absl::Status UseCertificate(const std::string& certificate, const std::string& key);
 
  private:
-  struct ContextFree {
-    void operator()(SSL_CTX* context) const { SSL_CTX_free(context); }
-  };
-
-  // Of the library; on one of its threads.
+  // Called by the library on one of its threads.
   bool process_and_close_socket(socket_t socket) override;
   bool Serve(socket_t socket);
-  // False: the address has as many connections as it may.
+  // False: the address has kMostOfOneAddress connections already.
   bool Enter(const std::string& address);
   void Leave(const std::string& address);
 
   Mutex mutex_;
-  // Null without TLS. A connection keeps the one that it began with.
+  // Null without TLS. A connection keeps the context that it started with.
   std::shared_ptr<SSL_CTX> context_ HOMING_GUARDED_BY(mutex_);
   std::map<std::string, std::size_t> connections_ HOMING_GUARDED_BY(mutex_);
 };

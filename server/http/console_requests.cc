@@ -21,7 +21,7 @@ constexpr std::size_t kMaxRobots = 8;
 constexpr std::chrono::seconds kAlive{5};
 constexpr char kCookie[] = "homing_session";
 constexpr char kJsonType[] = "application/json; charset=utf-8";
-// No script, style or connection from elsewhere; no frame around the console.
+// Forbids scripts, styles and connections of other sites, and a frame around the console.
 constexpr char kContentPolicy[] =
     "default-src 'none'; script-src 'self'; worker-src 'self'; style-src 'self'; img-src 'self'; "
     "connect-src 'self'; form-action 'self'; base-uri 'none'; frame-ancestors 'none'";
@@ -57,7 +57,8 @@ void Send(Response* response, const ApiAnswer& answer) {
   Send(response, answer.json, kJsonType);
 }
 
-// Scrapers and probes have neither login nor a browser that could be misled.
+// /metrics and /healthz are exempt: scrapers and probes have no login, and no browser that could be
+// misled.
 bool ConsoleServer::State::Refuse(const Request& request, Response* response) const {
   if (request.path == "/metrics" || request.path == "/healthz") return false;
   SetSafeHeaders(response);

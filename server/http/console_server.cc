@@ -74,7 +74,7 @@ ConsoleServer::~ConsoleServer() {
     feeds = state_->feeds;
   }
   for (const auto& feed : feeds) feed->Stop();
-  // A server that does not listen yet would not notice the stop.
+  // stop() has no effect before the server listens.
   while (!state_->server.is_running()) std::this_thread::yield();
   state_->server.stop();
   state_->thread.join();

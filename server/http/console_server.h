@@ -25,15 +25,16 @@ struct ConsoleOptions {
   std::string user_header;
 };
 
-// What the console shows; all must outlive it.
+// The objects that the console shows; all must outlive it.
 struct ConsoleContext {
   AccessControl* access = nullptr;
-  // To the server in this process.
+  // A channel to the server in this process.
   std::shared_ptr<grpc::Channel> channel;
   std::function<std::string()> metrics;
   std::function<bool()> healthy;
 };
 
+// Thread-safe; it serves on its own threads.
 class ConsoleServer {
  public:
   // UNAVAILABLE: the address is in use or not available; INVALID_ARGUMENT: the TLS files are bad.
@@ -48,7 +49,8 @@ class ConsoleServer {
   std::string url() const;
   // A link that logs an operator in once, within 15 minutes.
   absl::StatusOr<std::string> MakeLoginLink(const std::string& identity);
-  // Reads the certificate again. INVALID_ARGUMENT: it cannot be used; the one before stays.
+  // Reads the certificate again. INVALID_ARGUMENT: it cannot be used; the previous one stays in
+  // use.
   absl::Status ReloadCertificate();
 
  private:

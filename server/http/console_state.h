@@ -20,7 +20,8 @@
 
 namespace homing::server {
 
-// Through a provider: of others the library compresses the body, slowly, at each request.
+// Sends the body through a content provider: the library would compress any other body, slowly, at
+// each request.
 void Send(httplib::Response* response, std::string body, const char* type);
 void Send(httplib::Response* response, const ApiAnswer& answer);
 

@@ -9,7 +9,7 @@ namespace homing::server {
 namespace {
 
 constexpr std::size_t kMaxWaiting = 8;
-// How soon a browser tries again after the server's restart, ms.
+// Time after which a browser reconnects, for example after a restart of the server, ms.
 constexpr int kRetryMs = 500;
 
 }  // namespace

@@ -1,4 +1,4 @@
-// How often a login may fail: guesses of one address wait, and fill no log.
+// Limits failed logins for each address: guessing takes long, and does not fill the log.
 #ifndef SERVER_HTTP_LOGIN_LIMIT_H_
 #define SERVER_HTTP_LOGIN_LIMIT_H_
 
@@ -18,7 +18,7 @@ class LoginLimit {
   static constexpr int kMostFailures = 10;
   static constexpr std::chrono::minutes kPeriod{1};
 
-  // False: kMostFailures of `address` within kPeriod.
+  // False: `address` had kMostFailures failures within kPeriod.
   bool MayTry(const std::string& address, Time now);
   void NoteFailure(const std::string& address, Time now);
 
@@ -34,7 +34,7 @@ class LoginLimit {
       HOMING_REQUIRES(mutex_);
 
   Mutex mutex_;
-  // Of the last kPeriod.
+  // Failures of the last kPeriod, by address.
   std::map<std::string, Failures> failures_ HOMING_GUARDED_BY(mutex_);
 };
 

@@ -10,7 +10,7 @@
 namespace homing::server {
 namespace {
 
-// Without the port; an IPv6 address keeps its brackets.
+// The header's host without the port; an IPv6 address keeps its brackets.
 std::string HostOnly(const std::string& host) {
   if (!host.empty() && host.front() == '[') return host.substr(0, host.find(']') + 1);
   return host.substr(0, host.rfind(':'));

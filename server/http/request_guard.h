@@ -1,5 +1,5 @@
-// Checks of a browser's request that do not depend on the login: where it comes from, and where it
-// believes to be.
+// Checks of a browser's request that do not depend on the login: the site that sends it, and the
+// host name that it uses.
 #ifndef SERVER_HTTP_REQUEST_GUARD_H_
 #define SERVER_HTTP_REQUEST_GUARD_H_
 

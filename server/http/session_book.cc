@@ -9,7 +9,8 @@ namespace homing::server {
 namespace {
 
 constexpr std::size_t kMaxSessions = 1000;
-// Of one token; the oldest ends, so that one caller does not keep the others out.
+// Most sessions of one token. A further one ends the oldest, so that one caller cannot lock out the
+// others.
 constexpr std::ptrdiff_t kMaxOfOneToken = 20;
 
 }  // namespace

@@ -33,12 +33,12 @@ class SessionBook {
 
   // A session for a caller's own token; returns the cookie. UNAUTHENTICATED.
   absl::StatusOr<std::string> Open(const std::string& token);
-  // Without a session the login of the cookie; std::nullopt: it is unknown or has expired.
+  // The login of the cookie's session; std::nullopt: the cookie is unknown or has expired.
   std::optional<Login> Find(const std::string& cookie);
   void Close(const std::string& cookie);
   // The login of a user that a proxy names.
   absl::StatusOr<Login> OfUser(const std::string& identity);
-  // The login of everybody, where no credentials are needed.
+  // The login that all browsers share if no credentials are needed.
   absl::StatusOr<Login> OfAnybody();
 
   // The secret of a link that logs `identity` in once.

@@ -17,7 +17,7 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::steady_clock;
 
-// The library shows it in its requests.
+// Converts an address to the form that the library's requests show.
 void Describe(const sockaddr_storage& address, socklen_t size, std::string* ip, int* port) {
   std::array<char, NI_MAXHOST> host{};
   std::array<char, NI_MAXSERV> service{};
@@ -70,7 +70,7 @@ bool TimedStream::Begin() {
 }
 
 bool TimedStream::AwaitRequest() {
-  // The library answers a request that was cut, and would go on.
+  // The library answers a truncated request, and would then read the next one.
   if (broken_) return false;
   const bool has_bytes = first_ < last_ || (ssl_ && SSL_pending(ssl_.get()) > 0);
   if (!has_bytes && !Await(POLLIN, steady_clock::now() + limits_.idle_time)) return false;
@@ -100,7 +100,7 @@ ssize_t TimedStream::Receive(char* bytes, std::size_t size, Time end) {
       if (errno != EINTR && errno != EAGAIN && errno != EWOULDBLOCK) return -1;
       if (!Await(POLLIN, end)) return -1;
     }
-    // One byte now and then keeps no thread.
+    // A client that sends one byte now and then must not hold a thread.
     if (steady_clock::now() >= end) return -1;
   }
 }

@@ -1,17 +1,17 @@
-// One HTTP connection whose requests have a limited size and time: the library bounds each line and
-// each wait, and neither their number nor their sum.
+// One HTTP connection whose requests have a limited size and time: the library limits each line and
+// each wait, but neither their number nor their sum.
 #ifndef SERVER_HTTP_TIMED_STREAM_H_
 #define SERVER_HTTP_TIMED_STREAM_H_
 
 #include <httplib.h>
-#include <openssl/ssl.h>
 
 #include <array>
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <string>
+
+#include "server/access/openssl_handle.h"
 
 namespace homing::server {
 
@@ -19,11 +19,12 @@ namespace homing::server {
 class TimedStream final : public httplib::Stream {
  public:
   struct Limits {
-    // Of one request, with its headers.
+    // Size of one request with its headers.
     std::size_t request_bytes = 0;
-    // From its first byte to its last; of the handshake; and of each piece that is sent.
+    // Time for a request from its first byte to its last, for the TLS handshake, and for each piece
+    // that is sent.
     std::chrono::milliseconds request_time{};
-    // Between two requests.
+    // Time between two requests.
     std::chrono::milliseconds idle_time{};
   };
 
@@ -54,12 +55,10 @@ class TimedStream final : public httplib::Stream {
 
  private:
   using Time = std::chrono::steady_clock::time_point;
-  struct SslFree {
-    void operator()(SSL* ssl) const { SSL_free(ssl); }
-  };
 
   bool Await(short events, Time end) const;
-  // What the last call of the connection waits for; false: it has ended, or `end` has passed.
+  // Waits for the socket as the last SSL call, with this `result`, requires. False: the connection
+  // has ended, or `end` has passed.
   bool AwaitSsl(int result, Time end);
   ssize_t Receive(char* bytes, std::size_t size, Time end);
   ssize_t SendSome(const char* bytes, std::size_t size, Time end);
@@ -67,15 +66,15 @@ class TimedStream final : public httplib::Stream {
   const int socket_;
   const Limits limits_;
   // Null without TLS.
-  std::unique_ptr<SSL, SslFree> ssl_;
-  // What was received and not read yet: the library reads byte by byte.
+  OpensslPtr<SSL> ssl_;
+  // Received bytes that were not read yet: the library reads byte by byte.
   std::array<char, 4096> buffer_{};
   std::size_t first_ = 0;
   std::size_t last_ = 0;
   std::uint64_t consumed_ = 0;
-  // The last request did not come whole.
+  // The last request was incomplete.
   bool broken_ = false;
-  // Of the current request.
+  // Bytes that the current request may still have.
   std::size_t bytes_left_ = 0;
   Time request_end_;
 };

@@ -23,12 +23,12 @@ class Metrics {
   Metrics& operator=(const Metrics&) = delete;
 
   void CallStarted(Rpc rpc);
-  // Also counts the error by its reason; each limit has its own.
+  // Also counts an error by its reason; each limit has its own reason.
   void CallEnded(Rpc rpc, const absl::Status& status, double seconds);
-  // One observation of a stream.
+  // Counts one observation of a stream.
   void ObservationReceived(Rpc rpc);
   void ObservationLocalized(Outcome outcome, double seconds);
-  // One transaction of recorded steps.
+  // Counts and times one transaction of recorded steps.
   void Committed(int appends, bool ok, double seconds);
 
   // A gauge whose value is read at each scrape, until RemoveGauges.
@@ -37,7 +37,7 @@ class Metrics {
   void SetLimit(const std::string& name, double value);
   void RemoveGauges();
 
-  // In Prometheus' text format.
+  // All metrics in Prometheus' text format.
   std::string Text() const;
 
   struct State;

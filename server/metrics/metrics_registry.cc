@@ -1,9 +1,10 @@
 #include "server/metrics/metrics_registry.h"
 
-#include <chrono>
 #include <string>
 #include <utility>
 
+#include "absl/time/clock.h"
+#include "absl/time/time.h"
 #include "homing/base/mutex.h"
 #include "server/base/error_reason.h"
 
@@ -130,8 +131,7 @@ Metrics::State::State()
       .Help("When the server started, Unix time")
       .Register(*registry)
       .Add({})
-      .Set(std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch())
-               .count());
+      .Set(absl::ToDoubleSeconds(absl::Now() - absl::UnixEpoch()));
 }
 
 }  // namespace homing::server

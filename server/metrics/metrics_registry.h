@@ -81,7 +81,7 @@ struct Metrics::State {
   prometheus::Histogram& localize_seconds;
   prometheus::Histogram& commit_seconds;
   KnownCounters<kRpcs.size()> observations_of;
-  // By Outcome, which counts from 1.
+  // Indexed by Outcome, which counts from 1.
   KnownCounters<4> outcomes_of;
 
   State();

@@ -1,9 +1,8 @@
 // Accepting connections while the process has no file descriptor left.
 //
-// gRPC 1.51 stops listening for good after one accept4 that fails for want of descriptors. This
-// definition takes the place of the C library's for all of the program: with none left it gives up
-// a descriptor kept in reserve, accepts, closes the connection at once, and says that there was
-// none.
+// gRPC 1.51 stops listening for good after one accept4 that fails because no descriptor is left.
+// This definition replaces the C library's in the whole program: when no descriptor is left, it
+// closes a reserve descriptor, accepts the connection, closes it at once, and returns EAGAIN.
 #include <fcntl.h>
 #include <sys/socket.h>
 #include <sys/syscall.h>

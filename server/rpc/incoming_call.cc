@@ -109,15 +109,15 @@ absl::Status IncomingCall::EnterStream() {
   HOMING_RETURN_IF_ERROR(identified_);
   const MutexLock lock(mutex_);
   is_stream_ = true;
-  place_.Leave();
-  HOMING_ASSIGN_OR_RETURN(place_, core_->places.Enter(robot_));
+  slot_.Leave();
+  HOMING_ASSIGN_OR_RETURN(slot_, core_->slots.Enter(robot_));
   return absl::OkStatus();
 }
 
 absl::Status IncomingCall::EnterWatch() {
   HOMING_RETURN_IF_ERROR(identified_);
   const MutexLock lock(mutex_);
-  HOMING_ASSIGN_OR_RETURN(place_, core_->places.Enter(""));
+  HOMING_ASSIGN_OR_RETURN(slot_, core_->slots.Enter(""));
   return absl::OkStatus();
 }
 
@@ -162,12 +162,13 @@ grpc::Status IncomingCall::Finish(const absl::Status& status) {
       spdlog::info("audit: {} {} \"{}\": {}", caller_.identity.empty() ? "-" : caller_.identity,
                    TraitsOf(rpc_).method, resource_, absl::StatusCodeToString(status.code()));
     }
-    // The client records the trace, so it has a line of each call. A stranger cannot fill the log.
+    // The client records the trace, so each of its calls gets a log line. A stranger cannot fill
+    // the log with them.
     if (trace_ && IsSampled(*trace_) && identified_.ok()) {
       spdlog::info("call: {} \"{}\": {} in {:.6f} s", TraitsOf(rpc_).method, resource_,
                    absl::StatusCodeToString(status.code()), elapsed.count());
     }
-    place_.Leave();
+    slot_.Leave();
   }
   return ToGrpcStatus(status);
 }

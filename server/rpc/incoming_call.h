@@ -18,6 +18,7 @@
 
 namespace homing::server {
 
+// Belongs to one call. Several threads may use it, one after the other; Finish is thread-safe.
 class IncomingCall {
  public:
   // Runs on gRPC's thread when the method begins.
@@ -45,7 +46,7 @@ class IncomingCall {
   // "robots/r": the caller if it is a robot, else the robot that the request says or that its
   // journey names; empty: none.
   std::string RobotOf(const std::string& said, const std::string& journey) const;
-  // The trace that the client says it belongs to, for a TraceScope; null: none.
+  // The trace that the client names, for a TraceScope; null: none.
   const TraceParent* trace() const { return trace_ ? &*trace_ : nullptr; }
   // Counts one observation. RESOURCE_EXHAUSTED: the robot's rate is too high.
   absl::Status TakeObservation();
@@ -72,7 +73,7 @@ class IncomingCall {
   // The resource, for the log.
   std::string resource_ HOMING_GUARDED_BY(mutex_);
   bool is_stream_ HOMING_GUARDED_BY(mutex_) = false;
-  StreamLimiter::Place place_ HOMING_GUARDED_BY(mutex_);
+  StreamLimiter::Slot slot_ HOMING_GUARDED_BY(mutex_);
 };
 
 }  // namespace homing::server

@@ -24,7 +24,7 @@ class JsonFormatter final : public spdlog::formatter {
       json["trace_id"] = trace->trace_id;
       json["span_id"] = trace->span_id;
     }
-    // A message may hold bytes of a client that are no UTF-8.
+    // A message may contain bytes of a client that are not UTF-8.
     const std::string text =
         json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
     line.append(text.data(), text.data() + text.size());

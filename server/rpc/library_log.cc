@@ -44,7 +44,7 @@ void Log(spdlog::level::level_enum level, const char* library, const char* text)
       return;
     }
   }
-  if (left_out > 0) spdlog::warn("{} lines of libraries were left out before this one", left_out);
+  if (left_out > 0) spdlog::warn("{} earlier lines of libraries were omitted", left_out);
   spdlog::log(level, "{}: {}", library, text);
 }
 

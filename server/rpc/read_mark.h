@@ -10,13 +10,13 @@
 
 namespace homing::server {
 
-// Before a read. Decoding clears the message first, and the mark with it.
+// Call it before a read. Decoding first clears the message, and with it the mark.
 inline void MarkUnread(google::protobuf::Message* message) {
   constexpr int kAnyNumber = 1000;
   message->GetReflection()->MutableUnknownFields(message)->AddVarint(kAnyNumber, 1);
 }
 
-// After a read that failed: whether bytes came and could not be decoded.
+// Call it after a failed read. True: bytes arrived and could not be decoded.
 inline bool IsUndecodable(const google::protobuf::Message& message) {
   return message.GetReflection()->GetUnknownFields(message).empty();
 }

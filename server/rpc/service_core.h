@@ -8,6 +8,7 @@
 #include <functional>
 #include <memory>
 
+#include "absl/time/clock.h"
 #include "homing/image/frame.h"
 #include "proto/wire/observation_conversion.h"
 #include "server/access/access_control.h"
@@ -41,7 +42,7 @@ struct CoreOptions {
   std::function<TimePoint()> clock = [] { return std::chrono::steady_clock::now(); };
 };
 
-// Commits are counted and timed.
+// Options with a callback that counts and times the commits.
 inline storage::CommitQueueOptions QueueOptions(Metrics* metrics) {
   storage::CommitQueueOptions options;
   options.on_commit = [metrics](int stored, bool ok, std::chrono::duration<double> time) {
@@ -50,6 +51,7 @@ inline storage::CommitQueueOptions QueueOptions(Metrics* metrics) {
   return options;
 }
 
+<<<<<<< HEAD
 // Server's clock, nanoseconds since the epoch.
 inline std::int64_t WallClockNs() {
   return std::chrono::duration_cast<std::chrono::nanoseconds>(
@@ -61,6 +63,12 @@ inline std::int64_t WallClockNs() {
 // stopped before.
 struct ServiceCore {
   // Tasks that wait for a thread of long_work.
+=======
+// The order of destruction is the reverse: first the workers, then the commit queue, then the
+// store.
+struct ServiceCore {
+  // Most tasks of long_work that wait.
+>>>>>>> house
   static constexpr int kMaxLongWork = 16;
   static constexpr int kStoreWriters = 8;
   static constexpr int kStoreReaders = 4;
@@ -79,7 +87,7 @@ struct ServiceCore {
         models(store.get()),
         quota(&catalog, core_options.limits),
         rates(core_options.limits.max_robot_rate),
-        places(core_options.limits),
+        slots(core_options.limits),
         queue(store.get(), QueueOptions(metrics.get())),
         pool(core_options.workers) {}
   ~ServiceCore() {
@@ -99,20 +107,20 @@ struct ServiceCore {
   const std::unique_ptr<storage::JourneyStore> store;
   // Null without all_journeys_index.
   const std::unique_ptr<FleetIndex> index;
-  // Before the catalog, whose writers may hold a place on it.
-  FleetBoard fleet{WallClockNs};
+  // Declared before the catalog, whose writers may hold a place on it.
+  FleetBoard fleet{absl::GetCurrentTimeNanos};
   JourneyCatalog catalog;
   // Null unless other servers write to the store.
   const std::unique_ptr<JourneyFollower> follower;
   ModelCatalog models;
   JourneyQuota quota;
   RateLimiter rates;
-  StreamLimiter places;
+  StreamLimiter slots;
   // Bytes of files that are being imported.
   std::atomic<std::int64_t> import_bytes = 0;
   storage::CommitQueue queue;
   StreamRegistry streams;
-  // What may take long, so that robots do not wait for it: one at a time.
+  // Runs long tasks, one at a time, so that robots do not wait for them.
   WorkerPool long_work{1, kMaxLongWork};
   // What waits for the store and computes little, so that neither robots wait for a database that
   // is away, nor this for frames. A robot that goes home reads only.

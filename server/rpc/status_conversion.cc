@@ -27,7 +27,7 @@ bool IsHidden(absl::StatusCode code) {
 std::string MessageOf(const absl::Status& status) {
   if (IsHidden(status.code())) {
     spdlog::error("{}", std::string(status.ToString()));
-    return "internal error; the server's log says more";
+    return "internal error; see the server's log";
   }
   const std::string whole(status.message());
   std::string message;

@@ -11,6 +11,7 @@
 
 namespace homing::server {
 
+// Both may be called on any thread.
 class OpenStream {
  public:
   virtual ~OpenStream() = default;

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "absl/strings/str_cat.h"
+#include "absl/time/clock.h"
 #include "homing/base/field_error.h"
 #include "homing/base/status_macros.h"
 #include "server/base/error_reason.h"
@@ -112,7 +113,7 @@ absl::Status ImportStream::Store() {
   HOMING_RETURN_IF_ERROR(core_->quota.CheckNew(name_));
   HOMING_ASSIGN_OR_RETURN(ArchivedJourney archive, DecodeJourney(file_));
   archive.record.name = name_;
-  archive.record.create_time_ns = WallClockNs();
+  archive.record.create_time_ns = absl::GetCurrentTimeNanos();
   // gRPC reports the end of a cancelled stream like the end of a complete one.
   if (watch_.IsCancelled()) {
     return absl::CancelledError("the client cancelled the import");
@@ -128,7 +129,7 @@ void ImportStream::Complete() {
 }
 
 void ImportStream::FinishWith(const absl::Status& status) {
-  // Before the answer: the client may then import the next file.
+  // Frees the file before the answer, after which the client may import the next one.
   FreeFile();
   Finish(call_.Finish(status));
 }

@@ -66,7 +66,7 @@ class ImportStream final : public grpc::ServerReadReactor<v1::ImportJourneyReque
   v1::ImportJourneyRequest request_;
   std::string name_;
   std::string file_;
-  // Part of core_->import_bytes.
+  // This stream's part of core_->import_bytes.
   std::int64_t taken_ = 0;
 };
 

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "absl/time/clock.h"
 #include "homing/base/status_macros.h"
 #include "server/rpc/page.h"
 #include "server/rpc/unary_call.h"
@@ -37,7 +38,7 @@ grpc::ServerUnaryReactor* DeviationModelServiceHandler::TrainDeviationModel(
         HOMING_ASSIGN_OR_RETURN(
             const TrainedModel trained,
             core->models.Train(request->model_id(), DecodeTraining(request->settings()),
-                               WallClockNs()));
+                               absl::GetCurrentTimeNanos()));
         *response->mutable_model() = EncodeModel(trained.stored);
         if (request->include_deviations()) {
           response->mutable_deviations_px()->Assign(trained.deviations_px.begin(),

@@ -57,7 +57,7 @@ class RobotStream final : public WatchStream<v1::WatchRobotResponse> {
   }
 
   const std::string robot_;
-  // The first message is sent in any case.
+  // -1: the first message is sent even without a change.
   std::int64_t sent_ = -1;
 };
 

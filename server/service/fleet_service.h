@@ -7,6 +7,7 @@
 
 namespace homing::server {
 
+// Thread-safe: gRPC calls the methods on its own threads.
 class FleetServiceHandler final : public v1::FleetService::CallbackService {
  public:
   // `core` must outlive the service.

@@ -7,6 +7,7 @@
 
 namespace homing::server {
 
+// Thread-safe: gRPC calls the methods on its own threads.
 class HomingServiceHandler final : public v1::HomingService::CallbackService {
  public:
   // `core` must outlive the service.

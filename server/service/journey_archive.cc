@@ -24,7 +24,7 @@ namespace {
 // One byte follows, the version.
 constexpr std::string_view kMagic = "HOMINGJ";
 constexpr char kVersion = 2;
-// Without sequences.
+// The version without sequences.
 constexpr char kVersionBefore = 1;
 constexpr std::size_t kHeaderBytes = kMagic.size() + 1;
 constexpr std::size_t kChecksumBytes = 4;
@@ -46,26 +46,6 @@ std::string Checksum(std::string_view bytes) {
   return text;
 }
 
-void DeviationToProto(const DeviationModel& model, v1::DeviationValues* message) {
-  message->set_mu(model.mu);
-  message->set_sigma(model.sigma);
-  message->set_observations(model.observations);
-  message->set_ks_distance(model.ks_distance);
-  message->set_width(model.width);
-  message->set_height(model.height);
-}
-
-DeviationModel DeviationFromProto(const v1::DeviationValues& message) {
-  DeviationModel model;
-  model.mu = message.mu();
-  model.sigma = message.sigma();
-  model.observations = message.observations();
-  model.ks_distance = message.ks_distance();
-  model.width = message.width();
-  model.height = message.height();
-  return model;
-}
-
 using Profiles = google::protobuf::RepeatedPtrField<std::string>;
 
 void ProfilesToProto(std::span<const FlowProfile> profiles, Profiles* column) {
@@ -78,7 +58,7 @@ v1::JourneyMap MapToProto(const storage::JourneyRecord& record, const JourneyMap
                           char version) {
   v1::JourneyMap message;
   *message.mutable_settings() = wire::ToProto(map.settings());
-  DeviationToProto(map.settings().deviation_model, message.mutable_deviation());
+  wire::FillDeviation(map.settings().deviation_model, message.mutable_deviation());
   message.set_step_count(map.step_count());
   message.set_start_time_ns(record.start_time_ns);
   message.set_end_time_ns(record.end_time_ns);
@@ -110,7 +90,8 @@ absl::Status CheckTooLarge(std::size_t size) {
 // The message between magic and checksum.
 absl::StatusOr<v1::JourneyMap> Unwrap(std::string_view bytes) {
   HOMING_RETURN_IF_ERROR(CheckTooLarge(bytes.size()));
-  if (bytes.substr(0, kMagic.size()) != kMagic) return Damaged("does not begin as one");
+  if (bytes.substr(0, kMagic.size()) != kMagic)
+    return Damaged("does not begin with HOMINGJ: it is another kind of file");
   if (bytes.size() < kHeaderBytes + kChecksumBytes) return Damaged("ends too early");
   const char version = bytes[kMagic.size()];
   if (version < kVersionBefore || version > kVersion) {
@@ -118,7 +99,7 @@ absl::StatusOr<v1::JourneyMap> Unwrap(std::string_view bytes) {
   }
   const std::string_view content = bytes.substr(0, bytes.size() - kChecksumBytes);
   if (Checksum(content) != bytes.substr(content.size())) {
-    return Damaged("checksum does not agree: truncated or changed");
+    return Damaged("wrong checksum: the file is truncated or changed");
   }
   v1::JourneyMap message;
   const std::string_view body = content.substr(kHeaderBytes);
@@ -133,7 +114,8 @@ absl::Status CheckSize(const char* field, std::int64_t size, std::int64_t expect
   return Damaged(absl::StrCat(field, " has ", size, " entries: must have ", expected));
 }
 
-// The database does not keep the sign of 0, so that the file would not come out as it went in.
+// The database does not keep the sign of 0: an export of the imported map would differ from the
+// file.
 template <typename Column>
 absl::Status CheckZeros(const char* field, const Column& values) {
   for (const double value : values) {
@@ -178,7 +160,7 @@ absl::StatusOr<JourneySettings> SettingsOf(const v1::JourneyMap& message) {
   }
   HOMING_ASSIGN_OR_RETURN(JourneySettings result,
                           wire::FromProto(settings, "settings", JourneySettings()));
-  result.deviation_model = DeviationFromProto(message.deviation());
+  result.deviation_model = wire::DeviationOf(message.deviation());
   HOMING_RETURN_IF_ERROR(Validate(result));
   return result;
 }
@@ -276,7 +258,7 @@ absl::StatusOr<ArchivedJourney> DecodeJourney(std::string_view bytes) {
   journey.record.resend_from = journey.record.next_sequence;
   // Each map has exactly one file: a file that this program would write differently is refused.
   HOMING_ASSIGN_OR_RETURN(const std::string again, EncodeAs(version, journey.record, journey.map));
-  if (again != bytes) return Damaged("holds something that this program does not know");
+  if (again != bytes) return Damaged("has content that this program does not know");
   return journey;
 }
 

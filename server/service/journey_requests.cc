@@ -48,11 +48,11 @@ v1::AnalyzeAliasingResponse EncodeAliasing(const Aliasing& aliasing) {
   if (aliasing.median_steps) message.set_median_steps(*aliasing.median_steps);
   if (aliasing.most_steps) message.set_most_steps(*aliasing.most_steps);
   message.set_indistinct_share(aliasing.indistinct_share);
-  for (const Twins& twins : aliasing.twins) {
+  for (const AliasedPlaces& places : aliasing.aliased_places) {
     v1::Twins* pair = message.add_twins();
-    pair->set_first_step(twins.first_step);
-    pair->set_second_step(twins.second_step);
-    pair->set_confusion(twins.confusion);
+    pair->set_first_step(places.first_step);
+    pair->set_second_step(places.second_step);
+    pair->set_confusion(places.confusion);
   }
   return message;
 }

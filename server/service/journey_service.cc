@@ -1,5 +1,6 @@
 #include "server/service/journey_service.h"
 
+#include "absl/time/clock.h"
 #include "homing/base/status_macros.h"
 #include "server/rpc/unary_call.h"
 #include "server/service/archive_streams.h"
@@ -16,8 +17,9 @@ grpc::ServerUnaryReactor* JourneyServiceHandler::CreateJourney(
   return ServeUnary(
       core_, context, Rpc::kCreateJourney, request->parent(),
       [core = core_, request, response](const JourneyFilter& /*all*/) -> absl::Status {
-        HOMING_ASSIGN_OR_RETURN(const storage::JourneyRecord wanted,
-                                DecodeCreateJourney(*request, &core->models, WallClockNs()));
+        HOMING_ASSIGN_OR_RETURN(
+            const storage::JourneyRecord wanted,
+            DecodeCreateJourney(*request, &core->models, absl::GetCurrentTimeNanos()));
         HOMING_RETURN_IF_ERROR(core->quota.CheckNew(wanted.name));
         HOMING_ASSIGN_OR_RETURN(const storage::JourneyRecord made, core->catalog.Create(wanted));
         *response = EncodeJourneyRecord(made);

@@ -7,6 +7,7 @@
 
 namespace homing::server {
 
+// Thread-safe: gRPC calls the methods on its own threads.
 class JourneyServiceHandler final : public v1::JourneyService::CallbackService {
  public:
   // `core` must outlive the service.

@@ -1,9 +1,9 @@
 #include "server/service/localize_stream.h"
 
-#include "homing/base/field_error.h"
 #include "homing/base/status_macros.h"
 #include "server/base/resource_name.h"
 #include "server/service/message_conversion.h"
+#include "server/service/stream_messages.h"
 
 namespace homing::server {
 namespace {
@@ -13,21 +13,12 @@ constexpr std::size_t kMaxMasses = 400;
 }  // namespace
 
 absl::Status LocalizeStream::Handle(const v1::LocalizeRequest& request) {
-  switch (request.request_case()) {
-    case v1::LocalizeRequest::kConfig:
-      return Begin(request.config());
-    case v1::LocalizeRequest::kObservation:
-      return Localize(request.observation());
-    case v1::LocalizeRequest::REQUEST_NOT_SET:
-      break;
-  }
-  return FieldError("request", "must be config or observation");
+  return TakeMessage(
+      request, session_ != nullptr, [this](const auto& config) { return Begin(config); },
+      [this](const auto& observation) { return Localize(observation); });
 }
 
 absl::Status LocalizeStream::Begin(const v1::LocalizeConfig& config) {
-  if (session_) {
-    return FieldError("config", "must come once, in the first message");
-  }
   HOMING_RETURN_IF_ERROR(call().Authorize(config.journey()));
   HOMING_ASSIGN_OR_RETURN(HomingQuery query, DecodeHomingQuery(config));
   query.filter = call().filter();
@@ -43,9 +34,6 @@ absl::Status LocalizeStream::Begin(const v1::LocalizeConfig& config) {
 }
 
 absl::Status LocalizeStream::Localize(const v1::Observation& observation) {
-  if (!session_) {
-    return FieldError("observation", "came before config; the first message must be config");
-  }
   HOMING_RETURN_IF_ERROR(call().TakeObservation());
   const TimePoint begin = std::chrono::steady_clock::now();
   HOMING_ASSIGN_OR_RETURN(const Observation decoded,

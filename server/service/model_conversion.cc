@@ -1,4 +1,6 @@
+// Deviation models in messages; the declarations are in message_conversion.h.
 #include "proto/wire/observation_conversion.h"
+#include "proto/wire/settings_conversion.h"
 #include "server/service/message_conversion.h"
 
 namespace homing::server {
@@ -35,12 +37,7 @@ void Take(bool given, T value, T* target) {
 v1::DeviationModel EncodeModel(const storage::StoredModel& model) {
   v1::DeviationModel message;
   message.set_name(model.name);
-  message.set_mu(model.model.mu);
-  message.set_sigma(model.model.sigma);
-  message.set_observations(model.model.observations);
-  message.set_ks_distance(model.model.ks_distance);
-  message.set_width(model.model.width);
-  message.set_height(model.model.height);
+  wire::FillDeviation(model.model, &message);
   // The built-in model was not trained here.
   if (model.create_time_ns != 0) {
     *message.mutable_settings() = EncodeTraining(model.training);

@@ -2,10 +2,9 @@
 
 #include <utility>
 
-#include "homing/base/field_error.h"
-#include "homing/base/range_check.h"
 #include "homing/base/status_macros.h"
 #include "server/service/message_conversion.h"
+#include "server/service/stream_messages.h"
 
 namespace homing::server {
 namespace {
@@ -16,21 +15,12 @@ constexpr std::int64_t kQuotaEvery = 256;
 }  // namespace
 
 absl::Status RecordStream::Handle(const v1::RecordJourneyRequest& request) {
-  switch (request.request_case()) {
-    case v1::RecordJourneyRequest::kConfig:
-      return Begin(request.config());
-    case v1::RecordJourneyRequest::kObservation:
-      return Record(request.observation());
-    case v1::RecordJourneyRequest::REQUEST_NOT_SET:
-      break;
-  }
-  return FieldError("request", "must be config or observation");
+  return TakeMessage(
+      request, session_ != nullptr, [this](const auto& config) { return Begin(config); },
+      [this](const auto& observation) { return Record(observation); });
 }
 
 absl::Status RecordStream::Begin(const v1::RecordingConfig& config) {
-  if (session_) {
-    return FieldError("config", "must come once, in the first message");
-  }
   HOMING_RETURN_IF_ERROR(call().Authorize(config.journey()));
   HOMING_RETURN_IF_ERROR(core()->quota.CheckGrowth(config.journey()));
   journey_ = config.journey();
@@ -59,9 +49,6 @@ absl::Status RecordStream::Begin(const v1::RecordingConfig& config) {
 }
 
 absl::Status RecordStream::Record(const v1::Observation& observation) {
-  if (!session_) {
-    return FieldError("observation", "came before config; the first message must be config");
-  }
   if (const absl::Status status = CheckLimits(); !status.ok()) {
     session_->Reject(status);
     return absl::OkStatus();

@@ -18,7 +18,7 @@ class RecordStream final : public BidiStream<v1::RecordJourneyRequest, v1::Recor
 
  protected:
   absl::Status Handle(const v1::RecordJourneyRequest& request) override;
-  // After the pending appends are committed.
+  // Ends the stream after the pending appends are committed.
   void EndInTurn(const absl::Status& status) override;
   void HandleDone() override {
     session_.reset();

@@ -36,7 +36,7 @@ v1::CameraDirection ToProto(CameraDirection direction) {
   return v1::CAMERA_DIRECTION_UNSPECIFIED;
 }
 
-// Px, with the sign of the median x displacement.
+// Median flow length, pixels, with the sign of the median x displacement.
 float FlowOf(const OdometerReading& reading) {
   const double octaves =
       (reading.length_code - 1) / OdometerReading::kCodesPerOctave + OdometerReading::kLeastLog2Px;
@@ -44,7 +44,7 @@ float FlowOf(const OdometerReading& reading) {
   return reading.median_x < 0 ? -px : px;
 }
 
-// Of the values that were added; 0 without any.
+// The mean of the added values; 0 if there are none.
 struct Mean {
   double sum = 0;
   int count = 0;

@@ -1,4 +1,4 @@
-// What the cameras saw along a journey, for people who look at it.
+// Summarises the cameras' views along a journey for display.
 #ifndef SERVER_SERVICE_ROUTE_DESCRIPTION_H_
 #define SERVER_SERVICE_ROUTE_DESCRIPTION_H_
 

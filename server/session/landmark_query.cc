@@ -7,8 +7,7 @@
 #include "homing/base/field_error.h"
 #include "homing/base/range_check.h"
 #include "homing/base/status_macros.h"
-#include "homing/flow/motion.h"
-#include "homing/landmark/landmark_finder.h"
+#include "homing/journey/see_landmarks.h"
 #include "server/catalog/fleet_index.h"
 #include "server/catalog/journey_selection.h"
 
@@ -16,8 +15,6 @@ namespace homing::server {
 namespace {
 
 constexpr std::size_t kMaxFingerprints = 100;
-
-std::string NameOf(std::size_t camera) { return camera == 0 ? "left" : "right"; }
 
 absl::Status CheckFingerprints(const SeenFingerprints& seen) {
   if (seen.landmarks.size() > kMaxFingerprints) {
@@ -41,14 +38,15 @@ absl::StatusOr<QueryRobot> MeasureRobot(const LandmarkQuery& query, const Decode
   for (std::size_t side = 0; side < query.views.size(); ++side) {
     if (const auto* pair = std::get_if<FramePair>(&query.views[side])) {
       const auto image = DecodeGray(pair->first, limits);
-      HOMING_RETURN_IF_ERROR(Within(absl::StrCat(NameOf(side), ".frames.first"), image.status()));
+      HOMING_RETURN_IF_ERROR(
+          Within(absl::StrCat(kCameraNames[side], ".frames.first"), image.status()));
       robot.widths[side] = image->cols;
       robot.heights[side] = image->rows;
     } else if (const auto* flow = std::get_if<FlowField>(&query.views[side])) {
       robot.widths[side] = flow->width;
       robot.heights[side] = flow->height;
     } else if (const auto* seen = std::get_if<SeenFingerprints>(&query.views[side])) {
-      HOMING_RETURN_IF_ERROR(Within(NameOf(side), CheckFingerprints(*seen)));
+      HOMING_RETURN_IF_ERROR(Within(kCameraNames[side], CheckFingerprints(*seen)));
       robot.widths[side] = seen->width;
       robot.heights[side] = seen->height;
     }
@@ -85,23 +83,22 @@ absl::StatusOr<SeenNow> See(const LandmarkQuery& query, const LocalizerOptions& 
   SeenNow now;
   ObservedFlow flow;
   for (std::size_t side = 0; side < query.views.size(); ++side) {
-    HOMING_ASSIGN_OR_RETURN(const ObservedFlow raw,
+    HOMING_ASSIGN_OR_RETURN(ObservedFlow raw,
                             FlowOf(query.views[side], side, options.flow, limits));
     if (raw.fields[side]) {
-      flow.fields[side] = Rectify(*raw.fields[side], options.cameras[side]);
+      flow.fields[side] = std::move(raw.fields[side]);
       flow.makes_step = flow.makes_step || raw.makes_step;
     }
   }
   if (flow.fields[0] || flow.fields[1]) {
-    now.motion = ClassifyMotion(flow, options.cameras);
+    SeenStep step = SeeLandmarks(flow, options.cameras, query.travel, options.landmark);
+    now.motion = step.motion;
+    now.sides = std::move(step.landmarks);
   }
   for (std::size_t side = 0; side < query.views.size(); ++side) {
-    const auto route =
-        static_cast<std::size_t>(RouteSide(Side{static_cast<int>(side)}, query.travel));
     if (const auto* seen = std::get_if<SeenFingerprints>(&query.views[side])) {
-      now.sides[route] = seen->landmarks;
-    } else if (flow.fields[side] && now.motion == Motion::kMoving) {
-      now.sides[route] = FindLandmarks(*flow.fields[side], options.landmark);
+      const Side route = RouteSide(Side{static_cast<int>(side)}, query.travel);
+      now.sides[static_cast<std::size_t>(route)] = seen->landmarks;
     }
   }
   return now;

@@ -1,5 +1,5 @@
-// One query: which stored landmarks are similar to those in two frames, flow vectors or
-// fingerprints? Source: paper III (eqs 11 to 15).
+// Finds the stored landmarks that are similar to those in two frames, flow vectors or fingerprints.
+// Source: paper III (eqs 11 to 15).
 #ifndef SERVER_SESSION_LANDMARK_QUERY_H_
 #define SERVER_SESSION_LANDMARK_QUERY_H_
 
@@ -48,7 +48,7 @@ struct LandmarkQueryResult {
   // Absent if only fingerprints were given.
   std::optional<Motion> motion;
   std::vector<NamedMatch> matches;
-  // By side of the ROUTE.
+  // Landmarks seen, by side of the ROUTE.
   SeenSides seen;
 };
 

@@ -15,7 +15,7 @@
 
 namespace homing::server {
 
-// Where the robot was before its link broke.
+// The robot's place before its link broke.
 struct LocalizationPrior {
   std::string journey;
   PositionPrior start;
@@ -44,12 +44,12 @@ class LocalizationSession {
 
   // The first observation may have any sequence; each later one must have the next: OUT_OF_RANGE.
   // NOT_FOUND: the named journey was deleted, or all of a wildcard. After one of a wildcard was
-  // deleted, the others go on from the belief as after a break. FAILED_PRECONDITION: other camera
-  // or settings. INVALID_ARGUMENT. RESOURCE_EXHAUSTED: as JourneyCatalog::LoadMaps.
+  // deleted, the belief over the others is kept, as after a break. FAILED_PRECONDITION: other
+  // camera or settings. INVALID_ARGUMENT. RESOURCE_EXHAUSTED: as JourneyCatalog::LoadMaps.
   absl::StatusOr<Localization> Localize(const Observation& observation);
 
-  // Where the robot may be on one journey after the last observation, in at most `most` groups of
-  // consecutive steps.
+  // The distribution of the robot's place on one journey after the last observation, in at most
+  // `most` groups of consecutive steps.
   struct Belief {
     std::int64_t step_count = 0;
     std::int64_t first_step = 0;
@@ -75,7 +75,7 @@ class LocalizationSession {
   absl::Status CheckSequence(std::int64_t sequence);
   absl::Status Start(const Observation& observation);
   absl::Status StartAt(const LocalizationPrior& prior);
-  // Goes on without the journeys that were deleted.
+  // Continues without the deleted journeys.
   absl::Status LeaveDeleted();
 
   JourneyCatalog* const catalog_;
@@ -85,9 +85,9 @@ class LocalizationSession {
   LiveJourneys journeys_;
   LocalizerOptions options_;
   std::optional<Localizer> localizer_;
-  // Where the localiser starts.
+  // The start of the localiser.
   std::optional<LocalizationPrior> prior_;
-  // As in the last answer.
+  // The position of the last answer.
   Position position_;
   std::optional<std::int64_t> due_;
   bool started_ = false;

@@ -24,7 +24,8 @@ struct RecordingAnswer {
   std::optional<std::int64_t> sequence;
   // The first sequence that is not committed.
   std::int64_t next_sequence = 0;
-  // What to send again after a broken link, before next_sequence: for frames, the reference.
+  // The observation to send again after a broken link, before next_sequence: for frames, the
+  // reference.
   std::int64_t resend_from = 0;
   std::optional<JourneyStep> step;
   // The observation was compared with the reference and made no step.
@@ -95,7 +96,8 @@ class RecordingSession : public std::enable_shared_from_this<RecordingSession> {
   WriterClaim claim_;
   std::optional<JourneyRecorder> recorder_;
   InputKind kind_ = InputKind::kUnknown;
-  // Next for the recorder, and next to commit; the first is the reference until it was sent again.
+  // Next sequence for the recorder, and next sequence to commit. `due_` is the reference's until
+  // the client has sent the reference again.
   std::int64_t due_ = 0;
   std::int64_t next_ = 0;
 

@@ -24,11 +24,11 @@ class Heartbeat {
   Heartbeat(const Heartbeat&) = delete;
   Heartbeat& operator=(const Heartbeat&) = delete;
 
-  // Now. Returns health().
+  // Writes the row now. Returns health().
   absl::Status Beat();
-  // The result of another write.
+  // Reports the result of another write.
   void NoteWrite(const absl::Status& written);
-  // OK, or the last write's fault of the store.
+  // OK, or the fault of the store that the last write met.
   absl::Status health();
 
  private:

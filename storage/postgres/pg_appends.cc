@@ -59,7 +59,7 @@ absl::StatusOr<GrowingJourney*> PgAppends::Find(const std::string& name, PgConne
   return &journeys_.emplace(name, std::move(journey)).first->second;
 }
 
-// An error is one of the connection; those of single appends are decided here.
+// Sets the statuses of appends that cannot be stored. Returns the connection's errors only.
 absl::StatusOr<PgAppends::Batch> PgAppends::Plan(const std::vector<JourneyAppend>& appends,
                                                  PgConnection& connection, Deadline deadline) {
   Batch batch;
@@ -117,7 +117,7 @@ absl::StatusOr<PgRows> PgAppends::Send(const Batch& batch, PgConnection& connect
   return connection.Run(kAppend, arguments, deadline);
 }
 
-// Journeys that did not grow differ from the kept rows: these are read again.
+// The rows of journeys that did not grow differ from the kept ones and are read again.
 void PgAppends::Decide(const std::vector<JourneyAppend>& appends, const Batch& batch,
                        const PgRows& grown) {
   std::set<std::int64_t> ids;
@@ -157,7 +157,8 @@ absl::Status PgAppends::ResolveDoubt(const std::vector<JourneyAppend>& appends, 
     }
     for (const std::size_t i : batch.appends) {
       const auto found = stored.find(JourneyId(appends[i].journey));
-      // Nobody but this server writes with this epoch. Without it, the next try says why.
+      // Only this server writes with this epoch. Under another epoch the next attempt returns the
+      // error.
       if (found != stored.end() && found->second.first == appends[i].epoch &&
           found->second.second > appends[i].sequence) {
         statuses_[i] = absl::OkStatus();
@@ -205,7 +206,7 @@ PgAppends::Outcome PgAppends::TryOnce(const std::vector<JourneyAppend>& appends,
     return Outcome::kDecided;
   }
   journeys_.clear();
-  // Rolled back for certain.
+  // The transaction was certainly rolled back.
   if (IsConflict(grown.status())) return Outcome::kAgain;
   FailUndecided(grown.status());
   return Outcome::kDecided;

@@ -29,11 +29,11 @@ class PgAppends {
   // reads the journeys: nothing is guessed. UNAVAILABLE after `deadline`.
   std::vector<absl::Status> Append(const std::vector<JourneyAppend>& appends, const Writer& writer,
                                    Deadline deadline);
-  // The row was changed by other code.
+  // Call it after other code changed the row.
   void Forget(const std::string& name) { journeys_.erase(name); }
 
  private:
-  // One statement: the appends that are not yet decided and fit.
+  // The content of one statement: appends that are not yet decided and fit.
   struct Batch {
     std::vector<std::size_t> appends;
     // The changed journeys, in order of id, with next_sequence as it must be before.
@@ -56,7 +56,7 @@ class PgAppends {
   void FailUndecided(const absl::Status& status);
 
   std::unordered_map<std::string, GrowingJourney> journeys_;
-  // Of the appends of this call; UNKNOWN: not decided yet.
+  // Results of this call's appends; UNKNOWN: not decided yet.
   std::vector<absl::Status> statuses_;
 };
 

@@ -1,4 +1,4 @@
-// The arguments of one statement, in PostgreSQL's binary format.
+// The arguments of one statement, in PostgreSQL's binary format. Not thread-safe.
 #ifndef STORAGE_POSTGRES_PG_ARGUMENTS_H_
 #define STORAGE_POSTGRES_PG_ARGUMENTS_H_
 

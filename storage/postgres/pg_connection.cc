@@ -57,13 +57,14 @@ std::string PgRows::Text(int row, int column) const {
 
 absl::StatusOr<std::unique_ptr<PgConnection>> PgConnection::Open(const std::string& url,
                                                                  Access access, Deadline deadline) {
-  // Before dbname: defaults, which the URL may override.
+  // The parameters before dbname are defaults, which the URL may override.
   const char* const names[] = {"application_name", "target_session_attrs", "dbname", nullptr};
   const char* const values[] = {
       "homing-server", access == Access::kReadWrite ? "read-write" : "any", url.c_str(), nullptr};
   std::unique_ptr<PgConnection> connection(
       new PgConnection(PQconnectStartParams(names, values, /*expand_dbname=*/1)));
-  if (connection->connection_ == nullptr) return absl::ResourceExhaustedError("store: no memory");
+  if (connection->connection_ == nullptr)
+    return absl::ResourceExhaustedError("store: out of memory");
   HOMING_RETURN_IF_ERROR(connection->Connect(deadline));
   return connection;
 }

@@ -1,5 +1,5 @@
-// One connection to PostgreSQL, by libpq: prepared statements, with deadlines of its own. A server
-// that was stopped answers nothing and closes nothing, which no timeout of TCP notices.
+// One connection to PostgreSQL, by libpq: prepared statements, each with a deadline. TCP's timeouts
+// do not detect a stopped server, which neither answers nor closes its connections.
 #ifndef STORAGE_POSTGRES_PG_CONNECTION_H_
 #define STORAGE_POSTGRES_PG_CONNECTION_H_
 
@@ -23,8 +23,7 @@ inline Deadline After(std::chrono::milliseconds time) {
   return std::chrono::steady_clock::now() + time;
 }
 
-// The rows of one statement: bigint, double precision, text and bytea, in
-// binary.
+// The rows of one statement: bigint, double precision, text and bytea, in binary. Immutable.
 class PgRows {
  public:
   explicit PgRows(PGresult* result) : result_(result, &PQclear) {}
@@ -42,6 +41,16 @@ class PgRows {
   std::unique_ptr<PGresult, void (*)(PGresult*)> result_;
 };
 
+// One of the rows, which must outlive it.
+struct PgRow {
+  std::int64_t Integer(int column) const { return rows.Integer(row, column); }
+  double Real(int column) const { return rows.Real(row, column); }
+  std::string Text(int column) const { return rows.Text(row, column); }
+
+  const PgRows& rows;
+  int row = 0;
+};
+
 // Not thread-safe.
 class PgConnection {
  public:
@@ -55,16 +64,16 @@ class PgConnection {
   PgConnection(const PgConnection&) = delete;
   PgConnection& operator=(const PgConnection&) = delete;
 
-  // One statement. `sql` must be a literal: its address is the key of the prepared statement.
+  // Runs one statement. `sql` must be a literal: its address is the key of the prepared statement.
   absl::StatusOr<PgRows> Run(const char* sql, const PgArguments& arguments, Deadline deadline);
-  // Any number of statements, in one transaction unless they say otherwise.
+  // Runs any number of statements, in one transaction unless they contain BEGIN or COMMIT.
   absl::Status Execute(const std::string& sql, Deadline deadline);
 
   // The last statement may have been committed or not: the connection was lost or the deadline
   // passed before the answer, or the server gave up waiting for its replica, which it reports as
   // success with a warning. The connection is of no further use.
   bool in_doubt() const { return in_doubt_; }
-  // Of no further use.
+  // The connection is of no further use.
   bool is_lost() const { return in_doubt_ || PQstatus(connection_) != CONNECTION_OK; }
 
  private:
@@ -73,7 +82,7 @@ class PgConnection {
   absl::Status Prepare(const char* sql, const PgArguments& arguments, Deadline deadline);
   // Waits until a result can be taken without blocking.
   absl::Status AwaitResult(Deadline deadline);
-  // All results of what was sent; returns the last one, or the first error.
+  // Reads all results of the sent statements; returns the last one, or the first error.
   absl::StatusOr<PgRows> TakeResults(Deadline deadline);
   absl::Status Lost(const std::string& why);
   static void NoteWarning(void* connection, const PGresult* notice);

@@ -5,8 +5,8 @@
 #include "absl/strings/str_cat.h"
 #include "homing/base/status_macros.h"
 #include "storage/postgres/pg_step_rows.h"
-#include "storage/row_words.h"
-#include "storage/settings_json.h"
+#include "storage/row_columns.h"
+#include "storage/store_errors.h"
 
 namespace homing::storage::postgres {
 namespace {
@@ -19,15 +19,11 @@ constexpr char kInsertJourney[] =
     " ON CONFLICT (journey_id) DO NOTHING RETURNING journey_id)"
     " INSERT INTO journey_settings (journey_id, settings) SELECT journey_id, $15 FROM created";
 
-#define HOMING_PG_JOURNEY_COLUMNS                                                       \
-  "SELECT name, state, writer_id, readers, input, next_sequence, resend_from,"          \
-  " create_time_ns, start_time_ns, end_time_ns, step_count, landmark_count,"            \
-  " fingerprint_count, coalesce(settings, '') FROM journeys LEFT JOIN journey_settings" \
-  " USING (journey_id)"
-
-constexpr char kFindJourney[] = HOMING_PG_JOURNEY_COLUMNS " WHERE journey_id = $1 AND name = $2";
+constexpr char kFindJourney[] =
+    "SELECT " HOMING_JOURNEY_COLUMNS HOMING_JOURNEYS " WHERE journey_id = $1 AND name = $2";
 // The last code point sorts after every name with the prefix.
-constexpr char kListJourneys[] = HOMING_PG_JOURNEY_COLUMNS
+constexpr char kListJourneys[] =
+    "SELECT " HOMING_JOURNEY_COLUMNS HOMING_JOURNEYS
     " WHERE name > $1 AND name >= $2 AND name < $2 || chr(1114111) ORDER BY name LIMIT $3";
 constexpr char kFindGrowing[] =
     "SELECT journey_id, epoch, state, input, next_sequence, resend_from, step_count,"
@@ -49,25 +45,6 @@ PgArguments KeyOf(const std::string& name) {
   return arguments;
 }
 
-absl::StatusOr<JourneyRecord> ReadJourneyRow(const PgRows& rows, int row) {
-  JourneyRecord record;
-  record.name = rows.Text(row, 0);
-  HOMING_ASSIGN_OR_RETURN(record.state, StateOfWord(rows.Text(row, 1)));
-  record.writer_id = rows.Text(row, 2);
-  HOMING_ASSIGN_OR_RETURN(record.readers, NamesFromJson(rows.Text(row, 3)));
-  HOMING_ASSIGN_OR_RETURN(record.input, InputOfWord(rows.Text(row, 4)));
-  record.next_sequence = rows.Integer(row, 5);
-  record.resend_from = rows.Integer(row, 6);
-  record.create_time_ns = rows.Integer(row, 7);
-  record.start_time_ns = rows.Integer(row, 8);
-  record.end_time_ns = rows.Integer(row, 9);
-  record.step_count = rows.Integer(row, 10);
-  record.landmark_count = static_cast<std::int32_t>(rows.Integer(row, 11));
-  record.fingerprint_count = rows.Integer(row, 12);
-  HOMING_ASSIGN_OR_RETURN(record.settings, JourneySettingsFromJson(rows.Text(row, 13)));
-  return record;
-}
-
 absl::Status ChangedOrNotFound(const absl::StatusOr<PgRows>& rows, const std::string& name) {
   HOMING_RETURN_IF_ERROR(rows.status());
   return rows->changed() > 0 ? absl::OkStatus() : JourneyNotFound(name);
@@ -85,10 +62,6 @@ std::int64_t JourneyId(const std::string& name) {
   return static_cast<std::int64_t>(hash >> 1U);
 }
 
-absl::Status JourneyNotFound(const std::string& name) {
-  return absl::NotFoundError(absl::StrCat("journey '", name, "' does not exist"));
-}
-
 absl::Status InsertJourney(PgConnection& connection, const JourneyRecord& record,
                            Deadline deadline) {
   PgArguments arguments = KeyOf(record.name);
@@ -101,17 +74,17 @@ absl::Status InsertJourney(PgConnection& connection, const JourneyRecord& record
   HOMING_ASSIGN_OR_RETURN(const PgRows inserted,
                           connection.Run(kInsertJourney, arguments, deadline));
   if (inserted.changed() > 0) return absl::OkStatus();
-  const bool same = FindJourney(connection, record.name, deadline).ok();
+  if (FindJourney(connection, record.name, deadline).ok()) return JourneyExists(record.name);
   return absl::AlreadyExistsError(absl::StrCat(
-      "journey '", record.name, "' ",
-      same ? "already exists" : "has the same hash as another one: choose another name"));
+      "journey '", record.name, "' has the same hash as another one: choose another name"));
 }
 
 absl::StatusOr<JourneyRecord> FindJourney(PgConnection& connection, const std::string& name,
                                           Deadline deadline) {
   HOMING_ASSIGN_OR_RETURN(const PgRows rows, connection.Run(kFindJourney, KeyOf(name), deadline));
   if (rows.size() == 0) return JourneyNotFound(name);
-  return ReadJourneyRow(rows, 0);
+  const PgRow row{rows, 0};
+  return ReadRecord(row);
 }
 
 absl::StatusOr<GrowingJourney> FindGrowing(PgConnection& connection, const std::string& name,
@@ -141,7 +114,8 @@ absl::StatusOr<std::vector<JourneyRecord>> ListJourneyRows(PgConnection& connect
   HOMING_ASSIGN_OR_RETURN(const PgRows rows, connection.Run(kListJourneys, arguments, deadline));
   std::vector<JourneyRecord> records;
   for (int row = 0; row < rows.size(); ++row) {
-    HOMING_ASSIGN_OR_RETURN(records.emplace_back(), ReadJourneyRow(rows, row));
+    const PgRow at{rows, row};
+    HOMING_ASSIGN_OR_RETURN(records.emplace_back(), ReadRecord(at));
   }
   return records;
 }

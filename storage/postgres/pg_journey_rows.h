@@ -17,8 +17,6 @@ namespace homing::storage::postgres {
 // PostgreSQL can distribute by it.
 std::int64_t JourneyId(const std::string& name);
 
-absl::Status JourneyNotFound(const std::string& name);
-
 // Writes the counts too. ALREADY_EXISTS; also for another name of the same hash.
 absl::Status InsertJourney(PgConnection& connection, const JourneyRecord& record,
                            Deadline deadline);

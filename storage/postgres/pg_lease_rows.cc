@@ -2,6 +2,7 @@
 #include "absl/strings/str_cat.h"
 #include "homing/base/status_macros.h"
 #include "storage/postgres/pg_journey_rows.h"
+#include "storage/store_errors.h"
 
 namespace homing::storage::postgres {
 namespace {
@@ -48,8 +49,8 @@ absl::Status CheckLeaseRow(PgConnection& connection, const std::string& name,
   return absl::AbortedError(
       absl::StrCat("journey '", name,
                    "': another writer records it through another server, and its lease of"
-                   " 15 s lasts ",
-                   rows.Integer(0, 0), " ms more"));
+                   " 15 s ends in ",
+                   rows.Integer(0, 0), " ms"));
 }
 
 absl::StatusOr<std::int64_t> AcquireJourneyRow(PgConnection& connection, const std::string& name,
@@ -60,7 +61,7 @@ absl::StatusOr<std::int64_t> AcquireJourneyRow(PgConnection& connection, const s
       connection.Run(kAcquire, LeaseArguments(name, writer_id, server_id), deadline));
   if (rows.size() == 1) return rows.Integer(0, 0);
   HOMING_RETURN_IF_ERROR(CheckLeaseRow(connection, name, writer_id, server_id, deadline));
-  return absl::FailedPreconditionError(absl::StrCat("journey '", name, "' is finished"));
+  return JourneyIsFinished(name);
 }
 
 absl::Status Beat(PgConnection& connection, std::int64_t server_id, Deadline deadline) {

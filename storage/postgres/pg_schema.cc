@@ -5,6 +5,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "homing/base/status_macros.h"
+#include "storage/store_errors.h"
 
 namespace homing::storage::postgres {
 namespace {
@@ -132,17 +133,10 @@ absl::StatusOr<std::int64_t> ReadVersion(PgConnection& connection, Deadline dead
   return absl::DataLossError("store: the table homing_schema must have one row");
 }
 
-absl::Status CheckNotNewer(std::int64_t version) {
-  if (version >= 0 && version <= kPostgresSchemaVersion) return absl::OkStatus();
-  return absl::FailedPreconditionError(
-      absl::StrCat("store: schema version is ", version, ", newer than this program's ",
-                   kPostgresSchemaVersion, ": use a newer homing-server"));
-}
-
 absl::Status MigrateInTransaction(PgConnection& connection, Deadline deadline) {
   HOMING_RETURN_IF_ERROR(connection.Execute(kLock, deadline));
   HOMING_ASSIGN_OR_RETURN(const std::int64_t version, ReadVersion(connection, deadline));
-  HOMING_RETURN_IF_ERROR(CheckNotNewer(version));
+  HOMING_RETURN_IF_ERROR(CheckNotNewer(version, kPostgresSchemaVersion));
   for (auto from = static_cast<std::size_t>(version); from < kMigrations.size(); ++from) {
     HOMING_RETURN_IF_ERROR(connection.Execute(kMigrations[from].tables, deadline));
     HOMING_RETURN_IF_ERROR(connection.Execute(kMigrations[from].views, deadline));
@@ -156,11 +150,7 @@ absl::Status MigrateInTransaction(PgConnection& connection, Deadline deadline) {
 
 absl::Status CheckSchema(PgConnection& connection, Deadline deadline) {
   HOMING_ASSIGN_OR_RETURN(const std::int64_t version, ReadVersion(connection, deadline));
-  HOMING_RETURN_IF_ERROR(CheckNotNewer(version));
-  if (version == kPostgresSchemaVersion) return absl::OkStatus();
-  return absl::FailedPreconditionError(absl::StrCat(
-      "store: schema version is ", version, ", older than this program's ", kPostgresSchemaVersion,
-      ": start homing-server on it once, not read-only, to migrate it"));
+  return CheckSameVersion(version, kPostgresSchemaVersion);
 }
 
 absl::Status Migrate(PgConnection& connection, Deadline deadline) {

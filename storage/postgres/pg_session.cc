@@ -8,8 +8,8 @@
 namespace homing::storage::postgres {
 namespace {
 
-// A transaction waits so long at most for another one's row; one that a dead server left open ends
-// by itself.
+// Limits the wait for another transaction's row, and ends transactions that a dead server left
+// open.
 constexpr char kSettings[] =
     "SET lock_timeout = '2s'; SET idle_in_transaction_session_timeout = '3s';"
     " SET client_min_messages = 'warning'";
@@ -20,7 +20,7 @@ constexpr char kDescribe[] =
     " current_setting('server_encoding'), CASE WHEN pg_is_in_recovery() THEN 0::bigint ELSE"
     " ('x' || substr(pg_walfile_name(pg_current_wal_lsn()), 1, 8))::bit(32)::bigint END";
 
-// A long journey takes half a second.
+// Reading a long journey takes half a second.
 constexpr std::chrono::milliseconds kReadTime{30'000};
 
 }  // namespace

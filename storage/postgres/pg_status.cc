@@ -35,7 +35,7 @@ absl::Status StatusOfCode(const std::string& code, const std::string& message) {
       absl::StartsWith(code, "57")) {
     return absl::UnavailableError(text);
   }
-  // A primary that became a standby: another host is to be asked.
+  // The primary became a standby; another host may accept writes.
   if (code == "25006") return absl::UnavailableError(text);
   if (absl::StartsWith(code, "53")) return absl::ResourceExhaustedError(text);
   if (absl::StartsWith(code, "XX0") && code != "XX000") return absl::DataLossError(text);
@@ -59,7 +59,8 @@ absl::Status StatusOfConnection(const std::string& message) {
     return absl::InvalidArgumentError(text);
   }
   for (const char* const final : {"does not exist", "authentication failed", "no password"}) {
-    // A missing socket or role file reads alike: it may appear later.
+    // Only with FATAL: the messages for a missing socket or file are alike, and these may appear
+    // later.
     if (absl::StrContains(message, final) && absl::StrContains(message, "FATAL")) {
       return absl::FailedPreconditionError(text);
     }

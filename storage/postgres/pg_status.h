@@ -10,14 +10,14 @@
 
 namespace homing::storage::postgres {
 
-// Of a statement that failed: UNAVAILABLE (try again), RESOURCE_EXHAUSTED (disk full, no memory),
-// DATA_LOSS, FAILED_PRECONDITION (no right, read-only), INTERNAL.
+// The status of a failed statement: UNAVAILABLE (try again), RESOURCE_EXHAUSTED (disk full, no
+// memory), DATA_LOSS, FAILED_PRECONDITION (no right, read-only), INTERNAL.
 absl::Status StatusOfResult(const PGresult* result);
-// Of a five-character code.
+// The status of a five-character SQLSTATE code.
 absl::Status StatusOfCode(const std::string& code, const std::string& message);
-// Of a connection that was refused. libpq gives no code for it.
+// The status of a refused connection, by libpq's text: there is no code.
 absl::Status StatusOfConnection(const std::string& message);
-// The server ends the connection with this error.
+// True if the server ends the connection with this error.
 bool IsFatal(const PGresult* result);
 // The transaction was rolled back because of another one; it may be tried again at once.
 bool IsConflict(const absl::Status& status);

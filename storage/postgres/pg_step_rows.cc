@@ -76,7 +76,8 @@ std::string EncodeFingerprints(const std::vector<RecordedFingerprint>& fingerpri
 
 absl::StatusOr<std::vector<RecordedFingerprint>> DecodeFingerprints(const std::string& bytes) {
   if (bytes.size() % kFingerprintBytes != 0) {
-    return absl::DataLossError(absl::StrCat("store: fingerprints of ", bytes.size(), " bytes"));
+    return absl::DataLossError(absl::StrCat("store: fingerprints: ", bytes.size(),
+                                            " bytes must be a multiple of ", kFingerprintBytes));
   }
   std::vector<RecordedFingerprint> fingerprints;
   for (std::size_t at = 0; at < bytes.size(); at += kFingerprintBytes) {

@@ -3,7 +3,6 @@
 #include <random>
 #include <utility>
 
-#include "absl/strings/str_cat.h"
 #include "homing/base/status_macros.h"
 #include "storage/map_assembly.h"
 #include "storage/postgres/pg_journey_rows.h"
@@ -11,6 +10,7 @@
 #include "storage/postgres/pg_schema.h"
 #include "storage/postgres/pg_step_rows.h"
 #include "storage/postgres_store.h"
+#include "storage/store_errors.h"
 
 namespace homing::storage {
 
@@ -29,11 +29,6 @@ constexpr auto kTransaction = PgWriter::Scope::kTransaction;
 std::int64_t NewServerId() {
   std::random_device random;
   return static_cast<std::int64_t>((std::uint64_t{random()} << 31U) ^ random());
-}
-
-absl::Status ReadOnlyError() {
-  return absl::FailedPreconditionError(
-      "store: it is read-only (--readonly): nothing can be recorded, changed or deleted");
 }
 
 }  // namespace
@@ -89,10 +84,7 @@ absl::StatusOr<Result> PostgresJourneyStore::Read(PgWriter::Scope scope, Query q
 }
 
 absl::Status PostgresJourneyStore::CreateJourney(const JourneyRecord& record) {
-  JourneyRecord empty = record;
-  empty.step_count = 0;
-  empty.landmark_count = 0;
-  empty.fingerprint_count = 0;
+  const JourneyRecord empty = EmptyRecord(record);
   bool is_repeated = false;
   writer_.Forget(record.name);
   return Write(kOneStatement, [&](PgConnection& connection, Deadline deadline) {

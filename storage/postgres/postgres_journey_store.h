@@ -15,6 +15,7 @@
 
 namespace homing::storage::postgres {
 
+// Thread-safe, as every JourneyStore.
 class PostgresJourneyStore final : public JourneyStore {
  public:
   // Migrates the tables unless read-only, and shows from now on that this server is alive. Errors
@@ -60,7 +61,7 @@ class PostgresJourneyStore final : public JourneyStore {
   absl::StatusOr<Result> Read(PgWriter::Scope scope, Query query);
 
   PgDatabase database_;
-  // Of this run of this server.
+  // Random number of this run of this server.
   const std::int64_t server_id_;
   PgPool readers_;
 

@@ -71,7 +71,7 @@ for program in homing homing-bench; do
     [ \"\${COMPREPLY[*]}\" = --json ]" || fail "no completion for $program"
 done
 
-# The library, from what is installed, as a robot's program finds it.
+# The installed library, as a robot's program finds it.
 apt install g++ cmake make pkg-config
 # This root leaves out documentation, and with it the installed examples.
 cp -r examples/cpp example
@@ -91,7 +91,7 @@ homing --quiet --json localize --journey "$journey" --travel return --left home/
 [ "$(wc -l <states.txt)" = "$(wc -l <home.json)" ] || fail "not one VDA 5050 fragment an answer"
 stop
 
-# The wheel in an environment of its own, with asyncio over TLS.
+# The wheel in its own environment, with asyncio over TLS.
 apt install python3-venv
 homing-server certs --out pki --host 127.0.0.1 --robot r1 >/dev/null
 chown -R homing pki

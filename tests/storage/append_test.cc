@@ -152,9 +152,9 @@ TEST_P(AppendTest, OneTransactionServesManyJourneysAndRefusesOnlyTheWrongEntries
   EXPECT_THAT(statuses[1], StatusIs(absl::StatusCode::kNotFound, HasSubstr("gone")));
   EXPECT_THAT(statuses[2], IsOk());
   EXPECT_THAT(statuses[3], StatusIs(absl::StatusCode::kFailedPrecondition, HasSubstr("finished")));
-  EXPECT_THAT(statuses[4], StatusIs(absl::StatusCode::kOutOfRange, HasSubstr("1 is due")));
+  EXPECT_THAT(statuses[4], StatusIs(absl::StatusCode::kOutOfRange, HasSubstr("must be 1")));
   EXPECT_THAT(statuses[5], IsOk());
-  EXPECT_THAT(statuses[6], StatusIs(absl::StatusCode::kOutOfRange, HasSubstr("1 is due")));
+  EXPECT_THAT(statuses[6], StatusIs(absl::StatusCode::kOutOfRange, HasSubstr("must be 1")));
   EXPECT_EQ(store_->GetJourney(kJourney)->next_sequence, 2);
   EXPECT_EQ(store_->GetJourney(kOther)->next_sequence, 1);
 }

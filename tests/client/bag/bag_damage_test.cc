@@ -100,7 +100,7 @@ TEST(BagBombTest, ClaimedSizesAreNotAllocated) {
   WriteFile(folder.File("b.mcap"), "\x89MCAP0\r\n" + Record('\x06', chunk));
   const auto claimed = OpenBag(folder.File("b.mcap"));
   ASSERT_THAT(claimed, IsOk());
-  EXPECT_THAT((*claimed)->damage(), HasSubstr("most is"));
+  EXPECT_THAT((*claimed)->damage(), HasSubstr("the limit is"));
 }
 
 TEST(BagBombTest, AWrongChecksumIsFound) {

@@ -30,7 +30,7 @@ JourneyMap RecordAll(const std::vector<Observation>& observations) {
   return map;
 }
 
-// Stopped after `cut` observations; another recorder goes on from the map and the reference.
+// Stopped after `cut` observations; another recorder continues from the map and the reference.
 JourneyMap RecordWithRestart(const std::vector<Observation>& observations, std::size_t cut) {
   JourneyMap map;
   JourneyRecorder recorder(map.settings());

@@ -34,7 +34,7 @@ std::vector<FlowProfile> RandomRoute(int count, int seed) {
   return route;
 }
 
-TEST(Aliasing, PlacesAllUnlikeAreToldAtOnceAndHaveNoTwins) {
+TEST(Aliasing, PlacesAllUnlikeAreKnownAtOnceAndNoneIsAliased) {
   const Aliasing aliasing = AnalyzeAliasing({RandomRoute(200, 1), RandomRoute(200, 2)}, 5);
   ASSERT_TRUE(aliasing.most_steps);
   EXPECT_LE(*aliasing.most_steps, 20);
@@ -42,7 +42,7 @@ TEST(Aliasing, PlacesAllUnlikeAreToldAtOnceAndHaveNoTwins) {
   EXPECT_EQ(aliasing.indistinct_share, 0);
 }
 
-TEST(Aliasing, AStretchThatComesAgainTakesLongerAndIsToldAsTwins) {
+TEST(Aliasing, AStretchThatComesAgainTakesLongerAndIsReportedAsAliased) {
   const std::vector<FlowProfile> plain = RandomRoute(200, 1);
   std::vector<FlowProfile> repeated = plain;
   std::copy(plain.begin() + 20, plain.begin() + 50, repeated.begin() + 120);
@@ -51,10 +51,11 @@ TEST(Aliasing, AStretchThatComesAgainTakesLongerAndIsToldAsTwins) {
   ASSERT_TRUE(before.most_steps);
   ASSERT_TRUE(after.most_steps);
   EXPECT_GT(*after.most_steps, *before.most_steps + 5);
-  ASSERT_FALSE(after.twins.empty());
-  EXPECT_NEAR(static_cast<double>(std::abs(after.twins[0].first_step - after.twins[0].second_step)),
+  ASSERT_FALSE(after.aliased_places.empty());
+  EXPECT_NEAR(static_cast<double>(std::abs(after.aliased_places[0].first_step -
+                                           after.aliased_places[0].second_step)),
               100, 5);
-  EXPECT_GE(after.twins[0].confusion, 0.9);
+  EXPECT_GE(after.aliased_places[0].confusion, 0.9);
 }
 
 TEST(Aliasing, ARouteThatLooksTheSameEverywhereIsNeverTold) {
@@ -63,14 +64,14 @@ TEST(Aliasing, ARouteThatLooksTheSameEverywhereIsNeverTold) {
   const Aliasing aliasing = AnalyzeAliasing({same, {}}, 5);
   EXPECT_FALSE(aliasing.median_steps);
   EXPECT_EQ(aliasing.indistinct_share, 1);
-  EXPECT_FALSE(aliasing.twins.empty());
-  EXPECT_LE(aliasing.twins.size(), 20U);
+  EXPECT_FALSE(aliasing.aliased_places.empty());
+  EXPECT_LE(aliasing.aliased_places.size(), 20U);
 }
 
 TEST(Aliasing, NothingIsKnownOfARouteWithoutProfiles) {
   const Aliasing none = AnalyzeAliasing({}, 10);
   EXPECT_FALSE(none.median_steps);
-  EXPECT_THAT(none.twins, IsEmpty());
+  EXPECT_THAT(none.aliased_places, IsEmpty());
   const Aliasing one = AnalyzeAliasing({RandomRoute(1, 4), {}}, 10);
   EXPECT_EQ(one.median_steps, 1);
 }

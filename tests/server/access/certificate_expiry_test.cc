@@ -53,7 +53,7 @@ TEST_F(CertificateExpiryTest, WarnsThirtyDaysAhead) {
   const CertificateExpiry expiry{"tls-cert", "server.pem", 100 * kDayS};
   EXPECT_EQ(ExpiryWarning(expiry, 70 * kDayS), "");
   EXPECT_THAT(ExpiryWarning(expiry, 71 * kDayS), HasSubstr("server.pem ends in 29 days"));
-  EXPECT_THAT(ExpiryWarning(expiry, 100 * kDayS), HasSubstr("has ended"));
+  EXPECT_THAT(ExpiryWarning(expiry, 100 * kDayS), HasSubstr("has expired"));
 }
 
 TEST_F(CertificateExpiryTest, CertificatesStayValidWhenTheAuthorityIsRenewed) {

@@ -74,7 +74,7 @@ TEST(StreamLimiterTest, APlaceIsGivenBackOnce) {
   EXPECT_EQ(ReasonOf(second.status()).reason, "ROBOT_STREAMS");
   ASSERT_THAT(limiter.Enter("robots/b"), IsOk());
   EXPECT_EQ(limiter.open(), 1);
-  StreamLimiter::Place moved = *std::move(first);
+  StreamLimiter::Slot moved = *std::move(first);
   first->Leave();
   EXPECT_EQ(limiter.open(), 1);
   moved.Leave();

@@ -1,4 +1,4 @@
-// Recording that goes on from a reference frame, and steps that are not made.
+// Recording that continues from a reference frame, and steps that are not made.
 #include "server/session/recording_session.h"
 #include "tests/server/session/session_fixture.h"
 

@@ -42,7 +42,7 @@ struct Answer {
   // The journey and the most probable step, counted from home. Unset where there is none.
   std::optional<std::string> journey = {};
   std::optional<std::int64_t> step = {};
-  // Of the steps first_step to last_step, inclusive.
+  // Probability of the steps first_step to last_step, inclusive.
   double probability = 0;
   std::int64_t first_step = 0;
   std::int64_t last_step = 0;
@@ -51,8 +51,8 @@ struct Answer {
   Direction direction = Direction::kUnknown;
   // Steps of the journey an observation; negative towards home. Unset before the robot has moved.
   std::optional<double> speed_ratio = {};
-  // Turn beyond what following the outbound path needs, to the robot's left: radians where the
-  // focal length is known, else pixels. Unset without two cameras.
+  // Change of the heading relative to the outbound path, to the robot's left: radians if the focal
+  // length is known, else pixels. Unset without two cameras.
   std::optional<double> turn = {};
   // Metres to the robot's left of the outbound path divided by the distance of the seen objects.
   // Unset without two cameras.
@@ -90,8 +90,8 @@ class Localizer {
   ~Localizer();
 
   // Sends one observation and waits for its answer. DEADLINE_EXCEEDED: none within `timeout`; the
-  // observation still counts when the link is back. RESOURCE_EXHAUSTED: 64 wait already. Other
-  // errors end the drive.
+  // observation still counts when the link is back. RESOURCE_EXHAUSTED: 64 observations wait
+  // already. Other errors end the drive.
   Result<Answer> Localize(const Observation& observation, std::chrono::milliseconds timeout);
 
  private:

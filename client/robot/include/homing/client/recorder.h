@@ -53,7 +53,7 @@ class Recorder {
   // Does not wait for the server. INVALID_ARGUMENT; FAILED_PRECONDITION: the buffer holds another
   // journey, or another program uses it.
   static Result<std::unique_ptr<Recorder>> Open(const Server& server, RecorderOptions options);
-  // What was not sent stays in the buffer file.
+  // Observations that were not sent stay in the buffer file.
   ~Recorder();
 
   // Never waits for the link. RESOURCE_EXHAUSTED: the buffer is full, the observation is dropped.
@@ -64,7 +64,7 @@ class Recorder {
   std::int64_t pending() const;
 
   // Waits until everything is durable, then closes the journey. DEADLINE_EXCEEDED: not within
-  // `timeout`; what waits stays in the buffer file. Nothing can be added afterwards.
+  // `timeout`; the waiting observations stay in the buffer file. Nothing can be added afterwards.
   Status Finish(std::chrono::milliseconds timeout);
 
  private:

@@ -1,4 +1,4 @@
-// Where the homing-server is, and the credentials of this robot.
+// The address of homing-server, and the credentials of this robot.
 #ifndef HOMING_CLIENT_SERVER_H_
 #define HOMING_CLIENT_SERVER_H_
 

@@ -9,7 +9,7 @@
 
 namespace homing::robot {
 
-// What to do after an error; the numbers are those of gRPC.
+// The kind of an error; the numbers are those of gRPC.
 enum class Code {
   kOk = 0,
   kCancelled = 1,

@@ -1,0 +1,63 @@
+// The columns of `journeys` and `deviation_models` that all stores read, and their readers. `Row`
+// has Text(column), Integer(column) and Real(column).
+#ifndef STORAGE_ROW_COLUMNS_H_
+#define STORAGE_ROW_COLUMNS_H_
+
+#include <cstdint>
+
+#include "absl/status/statusor.h"
+#include "homing/base/status_macros.h"
+#include "storage/journey_store.h"
+#include "storage/row_words.h"
+#include "storage/settings_json.h"
+
+#define HOMING_JOURNEY_COLUMNS                                               \
+  "name, state, writer_id, readers, input, next_sequence, resend_from,"      \
+  " create_time_ns, start_time_ns, end_time_ns, step_count, landmark_count," \
+  " fingerprint_count, coalesce(settings, '')"
+#define HOMING_JOURNEYS " FROM journeys LEFT JOIN journey_settings USING (journey_id)"
+#define HOMING_MODEL_COLUMNS \
+  "name, mu, sigma, observations, ks_distance, width, height, training, create_time_ns"
+
+namespace homing::storage {
+
+// HOMING_JOURNEY_COLUMNS are the first columns. DATA_LOSS.
+template <typename Row>
+absl::StatusOr<JourneyRecord> ReadRecord(Row& row) {
+  JourneyRecord record;
+  record.name = row.Text(0);
+  HOMING_ASSIGN_OR_RETURN(record.state, StateOfWord(row.Text(1)));
+  record.writer_id = row.Text(2);
+  HOMING_ASSIGN_OR_RETURN(record.readers, NamesFromJson(row.Text(3)));
+  HOMING_ASSIGN_OR_RETURN(record.input, InputOfWord(row.Text(4)));
+  record.next_sequence = row.Integer(5);
+  record.resend_from = row.Integer(6);
+  record.create_time_ns = row.Integer(7);
+  record.start_time_ns = row.Integer(8);
+  record.end_time_ns = row.Integer(9);
+  record.step_count = row.Integer(10);
+  record.landmark_count = static_cast<std::int32_t>(row.Integer(11));
+  record.fingerprint_count = row.Integer(12);
+  HOMING_ASSIGN_OR_RETURN(record.settings, JourneySettingsFromJson(row.Text(13)));
+  return record;
+}
+
+// HOMING_MODEL_COLUMNS are the first columns. DATA_LOSS.
+template <typename Row>
+absl::StatusOr<StoredModel> ReadModel(Row& row) {
+  StoredModel stored;
+  stored.name = row.Text(0);
+  stored.model.mu = row.Real(1);
+  stored.model.sigma = row.Real(2);
+  stored.model.observations = static_cast<int>(row.Integer(3));
+  stored.model.ks_distance = row.Real(4);
+  stored.model.width = static_cast<int>(row.Integer(5));
+  stored.model.height = static_cast<int>(row.Integer(6));
+  HOMING_ASSIGN_OR_RETURN(stored.training, TrainingOptionsFromJson(row.Text(7)));
+  stored.create_time_ns = row.Integer(8);
+  return stored;
+}
+
+}  // namespace homing::storage
+
+#endif  // STORAGE_ROW_COLUMNS_H_
