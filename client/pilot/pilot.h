@@ -62,8 +62,8 @@ struct PilotOptions {
   // Speed while unsure and while searching, share of the most.
   double unsure_speed = 0.5;
   double search_speed = 0.3;
-  // Unsure for so many metres driven: stops and searches.
-  double patience_m = 4;
+  // Unsure for so many metres driven, by the commands and the turns: searches.
+  double patience_m = 25;
   // No answer for so long: slows down, stops. s.
   double slow_after_s = 0.6;
   double stop_after_s = 1.2;
@@ -110,6 +110,9 @@ class Pilot {
   void TakeTurn(const PilotAnswer& answer);
   void Watch(const PilotAnswer& answer, const Belief& expected);
   void TakePlace(const PilotAnswer& answer);
+  // The answer's place, `ahead_m` nearer to home than the pilot believes, is not where the robot
+  // can have come to.
+  bool IsElsewhere(const PilotAnswer& answer, double ahead_m);
   PilotCommand TurnRound();
   PilotCommand FollowPath(double speed_mps) const;
   void BeginSearch();
@@ -135,6 +138,10 @@ class Pilot {
   double heard_s_ = -1;
   double last_drive_s_ = -1;
   bool is_sure_ = false;
+  // Answers that are sure of another place: how far ahead of the believed one it was at first, and
+  // what was left of the way then, m.
+  std::optional<double> elsewhere_ahead_m_;
+  double elsewhere_from_m_ = 0;
   // Driven since the pilot was last sure, m.
   double unsure_m_ = 0;
   double searched_m_ = 0;
