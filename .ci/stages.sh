@@ -130,6 +130,16 @@ stage_faults() {
   fi
 }
 
+# Robots drive home by the answers alone: some under each condition, and two through a server. Uses the build of the
+# tests. Only by name, `.ci/run drive`: with a quarter of the landmarks removed fewer come home than must.
+stage_drive() {
+  if [ -d "$scratch/root/homing" ]; then
+    in_bare_root sh /homing/tests/drive/run.sh --quick
+  else
+    sh tests/drive/run.sh --quick
+  fi
+}
+
 # Three servers on one PostgreSQL: few rounds of kills, pauses and promotions. Its gaps may be longer
 # by half than on a machine that does nothing else. Uses the build of the tests.
 stage_scale() {

@@ -19,14 +19,9 @@ struct JourneyRow {
   JourneyRecord record;
 };
 
-<<<<<<< HEAD
 // Begins the name of a journey that is being deleted, and that no reader of the store sees.
 inline constexpr char kHiddenPrefix[] = "deleted/";
 
-absl::Status JourneyNotFound(const std::string& name);
-
-=======
->>>>>>> house
 // Writes the counts too. ALREADY_EXISTS. Returns the id.
 absl::StatusOr<std::int64_t> InsertJourney(Connection& connection, const JourneyRecord& record);
 // NOT_FOUND, DATA_LOSS.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 namespace homing::client {
 namespace {
@@ -24,6 +25,13 @@ constexpr double kSpeedPerM = 0.5;
 // the map ends. An answer then corrects a small part of the difference.
 constexpr double kCloseM = 1.5;
 constexpr double kCloseGain = 0.03;
+// An answer further than this from where the robot is expected, and further by a share of the way
+// driven unsure, is believed after so many metres. m.
+constexpr double kJumpM = 3;
+constexpr double kJumpPerM = 0.1;
+constexpr double kJumpConfirmedM = 4;
+// An answer is no better than its tolerance: its place is taken over so many metres, m.
+constexpr double kPlaceM = 2;
 // A search sweeps so far back, and twice as far ahead, then further and further, m. It swings the
 // heading by so much, rad, over so many metres.
 constexpr double kSweepM = 1.5;
@@ -109,14 +117,38 @@ void Pilot::TakePlace(const PilotAnswer& answer) {
   const Belief expected = Carried(known_, answer_time_s_, answer.time_s);
   is_sure_ = answer.outcome == PilotAnswer::Outcome::kMatch;
   if (state_ == State::kTurningRound || answer.time_s < round_s_) return;
-  Watch(answer, expected);
-  known_.offset_m =
-      answer.path_offset ? *answer.path_offset * options_.distance_m : expected.offset_m;
-  known_.remaining_m = expected.remaining_m;
+  const double told_m =
+      answer.progress_home ? (1 - *answer.progress_home) * options_.route_m : expected.remaining_m;
+  const bool is_elsewhere = IsElsewhere(answer, expected.remaining_m - told_m);
+  is_sure_ = is_sure_ && !is_elsewhere;
+  PilotAnswer here = answer;
+  if (is_elsewhere) here.path_offset.reset();
+  Watch(here, expected);
+  known_.offset_m = here.path_offset ? *here.path_offset * options_.distance_m : expected.offset_m;
+  const double before_m = std::exchange(known_.remaining_m, expected.remaining_m);
   if (!answer.progress_home || !is_sure_) return;
-  const double told_m = (1 - *answer.progress_home) * options_.route_m;
-  const bool is_close = told_m < kCloseM && std::abs(told_m - expected.remaining_m) < kCloseM;
-  known_.remaining_m += (is_close ? kCloseGain : 1) * (told_m - expected.remaining_m);
+  const double off_m = told_m - expected.remaining_m;
+  const bool is_close = told_m < kCloseM && std::abs(off_m) < kCloseM;
+  const double driven_m = std::abs(before_m - expected.remaining_m);
+  const double gain = is_close ? kCloseGain : 1 - std::exp(-driven_m / kPlaceM);
+  known_.remaining_m += (std::abs(off_m) < kJumpM ? gain : 1) * off_m;
+}
+
+// What lies far from where the robot was a moment ago is believed when it has been told for a
+// while, each time as far on as the robot has driven: until then the place is carried on. What is
+// told beside the path there says nothing of here.
+bool Pilot::IsElsewhere(const PilotAnswer& answer, double ahead_m) {
+  if (!answer.progress_home || state_ == State::kSearching ||
+      std::abs(ahead_m) < kJumpM + kJumpPerM * unsure_m_) {
+    elsewhere_ahead_m_.reset();
+    return false;
+  }
+  if (!is_sure_) return true;
+  if (!elsewhere_ahead_m_ || std::abs(ahead_m - *elsewhere_ahead_m_) > kJumpM) {
+    elsewhere_ahead_m_ = ahead_m;
+    elsewhere_from_m_ = known_.remaining_m;
+  }
+  return elsewhere_from_m_ - known_.remaining_m < kJumpConfirmedM;
 }
 
 // Where the offsets run away from what the heading makes them, the heading is wrong: turns were

@@ -62,8 +62,9 @@ struct PilotOptions {
   // Speeds while unsure and while searching, as fractions of the greatest speed.
   double unsure_speed = 0.5;
   double search_speed = 0.3;
-  // Metres driven while unsure after which the pilot stops and searches.
-  double patience_m = 4;
+  // Metres driven by the commands and the turns while unsure, after which the pilot stops and
+  // searches.
+  double patience_m = 25;
   // Time without an answer after which the pilot slows down, and after which it stops, s.
   double slow_after_s = 0.6;
   double stop_after_s = 1.2;
@@ -110,6 +111,9 @@ class Pilot {
   void TakeTurn(const PilotAnswer& answer);
   void Watch(const PilotAnswer& answer, const Belief& expected);
   void TakePlace(const PilotAnswer& answer);
+  // The answer's place, `ahead_m` nearer to home than the pilot believes, is not where the robot
+  // can have come to.
+  bool IsElsewhere(const PilotAnswer& answer, double ahead_m);
   PilotCommand TurnRound();
   PilotCommand FollowPath(double speed_mps) const;
   void BeginSearch();
@@ -135,6 +139,10 @@ class Pilot {
   double heard_s_ = -1;
   double last_drive_s_ = -1;
   bool is_sure_ = false;
+  // Answers that are sure of another place: how far ahead of the believed one it was at first, and
+  // what was left of the way then, m.
+  std::optional<double> elsewhere_ahead_m_;
+  double elsewhere_from_m_ = 0;
   // Driven since the pilot was last sure, m.
   double unsure_m_ = 0;
   double searched_m_ = 0;

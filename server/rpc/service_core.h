@@ -51,24 +51,10 @@ inline storage::CommitQueueOptions QueueOptions(Metrics* metrics) {
   return options;
 }
 
-<<<<<<< HEAD
-// Server's clock, nanoseconds since the epoch.
-inline std::int64_t WallClockNs() {
-  return std::chrono::duration_cast<std::chrono::nanoseconds>(
-             std::chrono::system_clock::now().time_since_epoch())
-      .count();
-}
-
 // The order of destruction is the reverse: first the commit queue, then the store. The workers have
 // stopped before.
 struct ServiceCore {
-  // Tasks that wait for a thread of long_work.
-=======
-// The order of destruction is the reverse: first the workers, then the commit queue, then the
-// store.
-struct ServiceCore {
   // Most tasks of long_work that wait.
->>>>>>> house
   static constexpr int kMaxLongWork = 16;
   static constexpr int kStoreWriters = 8;
   static constexpr int kStoreReaders = 4;

@@ -1,10 +1,12 @@
 // Drives robots home under every condition and prints a line for each bound: name value bound
 // ok|short. Exits 1 if any is short.
 // usage: homing_drive_rows [--robots N] [--rendered N] [--first-world W] [--only NAME] [--verbose]
+//        [--trace I]      Of each condition, robot number I alone, with a line an observation.
 #include <algorithm>
 #include <atomic>
 #include <cstdlib>
 #include <iostream>
+#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
@@ -21,6 +23,7 @@ struct Flags {
   int first_world = 201;
   std::string only;
   bool verbose = false;
+  int trace = -1;
 };
 
 std::vector<Condition> Conditions() {
@@ -88,10 +91,50 @@ bool Judge(const Condition& condition, const std::vector<Fared>& all) {
   return Print(condition.name + ": robots over 2 m", far_off, "0", far_off == 0) && ok;
 }
 
+const char* NameOf(client::PilotAnswer::Outcome outcome) {
+  switch (outcome) {
+    case client::PilotAnswer::Outcome::kMatch:
+      return "match";
+    case client::PilotAnswer::Outcome::kAmbiguous:
+      return "ambiguous";
+    case client::PilotAnswer::Outcome::kUnknownPlace:
+      return "unknown";
+  }
+  return "";
+}
+
+std::string NumberOf(const std::optional<double>& value) {
+  return value ? absl::StrFormat("%.3f", *value) : "-";
+}
+
+void Trace(const Fared& fared) {
+  std::cout << "s\troute_m\tleft_m\theading\tstate\tspeed\trate\toutcome\tprobability\thome_m\t"
+               "turn\toffset\n";
+  for (const auto& point : fared.drive.points) {
+    std::cout << absl::StrFormat("%.1f\t%.2f\t%.2f\t%.3f\t%d\t%.2f\t%.2f", point.time_s,
+                                 point.route_m, point.left_m, point.heading, point.state,
+                                 point.command.speed_mps, point.command.turn_rate);
+    if (point.answer) {
+      const auto& answer = *point.answer;
+      std::cout << absl::StrFormat("\t%s%s\t%.2f\t%s\t%s\t%s", NameOf(answer.outcome),
+                                   answer.is_standing  ? "S"
+                                   : answer.is_turning ? "T"
+                                                       : "",
+                                   answer.probability, NumberOf(answer.progress_home),
+                                   NumberOf(answer.turn), NumberOf(answer.path_offset));
+    }
+    std::cout << "\n";
+  }
+}
+
 int Main(const Flags& flags) {
   bool ok = true;
   for (const Condition& condition : Conditions()) {
     if (!flags.only.empty() && condition.name != flags.only) continue;
+    if (flags.trace >= 0) {
+      Trace(DriveOne(condition, flags.trace, flags.first_world + flags.trace));
+      continue;
+    }
     const std::vector<Fared> fared = DriveAll(condition, flags);
     if (fared.empty()) continue;
     for (std::size_t i = 0; flags.verbose && i < fared.size(); ++i) {
@@ -120,6 +163,7 @@ int main(int argc, char** argv) {
     if (name == "--robots") flags.robots = std::atoi(value);
     if (name == "--rendered") flags.rendered = std::atoi(value);
     if (name == "--first-world") flags.first_world = std::atoi(value);
+    if (name == "--trace") flags.trace = std::atoi(value);
     if (name == "--only") flags.only = value;
     ++i;
   }

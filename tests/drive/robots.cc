@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <iostream>
 #include <memory>
+#include <utility>
 
 #include "absl/strings/str_cat.h"
 #include "client/simulator/seeded_random.h"
@@ -66,7 +67,7 @@ HomeDriveOptions OptionsOf(const Condition& condition, bool turns_round, std::ui
   return options;
 }
 
-Fared FaredOf(const HomeDrive& drive, const client::Route& route) {
+Fared FaredOf(HomeDrive drive, const client::Route& route) {
   Fared fared;
   fared.end_m = drive.EndFromHome(route);
   fared.came_home = drive.stopped && fared.end_m <= kAtHomeM;
@@ -76,6 +77,7 @@ Fared FaredOf(const HomeDrive& drive, const client::Route& route) {
       fared.beside_m.push_back(std::abs(point.left_m));
     }
   }
+  fared.drive = std::move(drive);
   return fared;
 }
 
@@ -95,11 +97,11 @@ Fared DriveOne(const Condition& condition, int index, int world) {
   const JourneyMap map = OrExit(RecordOut(out->route(), {}, out_eyes.get()));
   LocalLocalizer localizer(&map, turns_round ? Travel::kReturn : Travel::kSame);
   const auto key = client::Mix(static_cast<std::uint64_t>(world), 95);
-  const HomeDrive drive = OrExit(client::DriveHome(
+  HomeDrive drive = OrExit(client::DriveHome(
       OptionsOf(condition, turns_round, key), out->route(), home_eyes.get(),
       [&](const Observation& seen) { return localizer.Answer(seen); },
       [&] { return localizer.Restart(); }));
-  return FaredOf(drive, out->route());
+  return FaredOf(std::move(drive), out->route());
 }
 
 }  // namespace homing::drive

@@ -36,6 +36,7 @@ struct Fared {
   // On the way, m beside the outbound path.
   std::vector<double> beside_m;
   double most_beside_m = 0;
+  client::HomeDrive drive = {};
 };
 
 // Robot number `index` of a condition: street and landmarks, RETURN and SAME in turn, in world

@@ -17,7 +17,7 @@ class PilotTest : public ::testing::Test {
     return options;
   }
 
-  // On the path, half of the way home, unless `answer` says otherwise.
+  // On the path, at the begin of the way home, unless `answer` says otherwise.
   PilotCommand Step(Pilot& pilot, PilotAnswer answer = Sure()) {
     answer.sequence = sequence_++;
     answer.time_s = now_s_;
@@ -45,9 +45,21 @@ class PilotTest : public ::testing::Test {
     PilotAnswer answer;
     answer.outcome = PilotAnswer::Outcome::kMatch;
     answer.probability = 1;
-    answer.progress_home = 0.5;
+    answer.progress_home = 0.01;
     answer.turn = 0;
     answer.path_offset = 0;
+    return answer;
+  }
+
+  static PilotAnswer Lost() {
+    PilotAnswer answer;
+    answer.outcome = PilotAnswer::Outcome::kUnknownPlace;
+    answer.turn = 0;
+    return answer;
+  }
+  static PilotAnswer Sure(double remaining_m) {
+    PilotAnswer answer = Sure();
+    answer.progress_home = 1 - remaining_m / 60;
     return answer;
   }
 
@@ -108,11 +120,9 @@ TEST_F(PilotTest, StandsWhenAnswersStopAndGoesOnWhenTheyComeAgain) {
 TEST_F(PilotTest, IsSlowerWhenUnsureAndSearchesAfterAWhile) {
   Pilot pilot = OnItsWay();
   const double sure = Step(pilot).speed_mps;
-  PilotAnswer lost;
-  lost.outcome = PilotAnswer::Outcome::kUnknownPlace;
-  EXPECT_LT(Step(pilot, lost).speed_mps, sure);
+  EXPECT_LT(Step(pilot, Lost()).speed_mps, sure);
   bool back = false;
-  for (int i = 0; i < 300; ++i) back = Step(pilot, lost).speed_mps < 0 || back;
+  for (int i = 0; i < 900; ++i) back = Step(pilot, Lost()).speed_mps < 0 || back;
   EXPECT_EQ(pilot.state(), Pilot::State::kSearching);
   EXPECT_TRUE(back);
 }
@@ -120,19 +130,66 @@ TEST_F(PilotTest, IsSlowerWhenUnsureAndSearchesAfterAWhile) {
 // A stretch that has changed may be long: to and fro on it alone the robot would stay for ever.
 TEST_F(PilotTest, ASearchGoesFurtherAndFurther) {
   Pilot pilot = OnItsWay();
-  PilotAnswer lost;
-  lost.outcome = PilotAnswer::Outcome::kUnknownPlace;
-  lost.turn = 0;
-  while (pilot.state() != Pilot::State::kSearching) Step(pilot, lost);
+  while (pilot.state() != Pilot::State::kSearching) Step(pilot, Lost());
   const double begin_m = pilot.remaining_m();
   double ahead_m = 0, behind_m = 0;
   for (int i = 0; i < 1000; ++i) {
-    Step(pilot, lost);
+    Step(pilot, Lost());
     ahead_m = std::max(ahead_m, begin_m - pilot.remaining_m());
     behind_m = std::max(behind_m, pilot.remaining_m() - begin_m);
   }
   EXPECT_GT(ahead_m, 5);
   EXPECT_GT(behind_m, 1);
+}
+
+// The turns are in the answers where the place is not, so that a stretch that has changed is
+// passed.
+TEST_F(PilotTest, DrivesOnByTheTurnsWhereThePlaceIsUnknown) {
+  Pilot pilot = OnItsWay();
+  for (int i = 0; i < 20; ++i) Step(pilot);
+  const double begin_m = pilot.remaining_m();
+  for (int i = 0; i < 300; ++i) EXPECT_GT(Step(pilot, Lost()).speed_mps, 0) << i;
+  EXPECT_EQ(pilot.state(), Pilot::State::kDriving);
+  EXPECT_LT(pilot.remaining_m(), begin_m - 10);
+}
+
+// Such an answer is a mistake more often than the robot is carried.
+TEST_F(PilotTest, APlaceFarOffIsBelievedWhenItIsToldForSomeMetres) {
+  Pilot pilot = OnItsWay();
+  for (int i = 0; i < 20; ++i) Step(pilot);
+  PilotAnswer elsewhere = Sure(30);
+  elsewhere.path_offset = 0.3;
+  Step(pilot, elsewhere);
+  EXPECT_GT(pilot.remaining_m(), 50);
+  EXPECT_LT(pilot.offset_m(), 0.5);
+  double told_m = 30;
+  for (int i = 0; i < 150; ++i) {
+    const double before_m = pilot.remaining_m();
+    Step(pilot, Sure(told_m));
+    const double driven_m = before_m - pilot.remaining_m();
+    if (driven_m < 1) told_m -= driven_m;
+  }
+  EXPECT_LT(pilot.remaining_m(), 30);
+}
+
+TEST_F(PilotTest, AWrongPlaceForAMomentIsNoHome) {
+  Pilot pilot = OnItsWay();
+  for (int i = 0; i < 20; ++i) Step(pilot);
+  for (int i = 0; i < 10; ++i) Step(pilot, Sure(0));
+  Step(pilot, Sure(pilot.remaining_m()));
+  EXPECT_EQ(pilot.state(), Pilot::State::kDriving);
+  EXPECT_GT(pilot.remaining_m(), 50);
+}
+
+// An answer is no better than its tolerance, which the way driven is for some metres.
+TEST_F(PilotTest, APlaceALittleOffIsTakenOverBySteps) {
+  Pilot pilot = OnItsWay();
+  for (int i = 0; i < 20; ++i) Step(pilot);
+  const double before_m = pilot.remaining_m();
+  Step(pilot, Sure(before_m + 1));
+  EXPECT_LT(pilot.remaining_m(), before_m + 0.3);
+  for (int i = 0; i < 100; ++i) Step(pilot, Sure(before_m));
+  EXPECT_NEAR(pilot.remaining_m(), before_m, 2.5);
 }
 
 TEST_F(PilotTest, WithoutATurnTheHeadingFollowsTheCommands) {
@@ -151,18 +208,22 @@ TEST_F(PilotTest, WithoutATurnTheHeadingFollowsTheCommands) {
 
 // The map ends there: answers stay at its last steps while the robot drives past them.
 TEST_F(PilotTest, TheLastMetreIsDrivenAsCommanded) {
-  Pilot pilot = OnItsWay();
+  PilotOptions options;
+  options.route_m = 5;
+  Pilot pilot = OnItsWay(options);
   PilotAnswer near = Sure();
-  near.progress_home = 1 - 0.5 / 60;
+  near.progress_home = 1 - 0.5 / 5;
   for (int i = 0; i < 200 && pilot.state() != Pilot::State::kHome; ++i) Step(pilot, near);
   EXPECT_EQ(pilot.state(), Pilot::State::kHome);
 }
 
 TEST_F(PilotTest, StopsAtHomeForGood) {
-  Pilot pilot = OnItsWay();
+  PilotOptions options;
+  options.route_m = 2;
+  Pilot pilot = OnItsWay(options);
   PilotAnswer home = Sure();
   home.progress_home = 0.9999;
-  Step(pilot, home);
+  for (int i = 0; i < 100 && pilot.state() != Pilot::State::kHome; ++i) Step(pilot, home);
   EXPECT_EQ(pilot.state(), Pilot::State::kHome);
   EXPECT_EQ(Step(pilot).speed_mps, 0);
 }
