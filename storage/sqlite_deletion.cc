@@ -9,6 +9,7 @@
 #include "storage/sqlite_journey_store.h"
 #include "storage/sqlite_status.h"
 #include "storage/step_id.h"
+#include "storage/store_errors.h"
 
 namespace homing::storage {
 namespace {
