@@ -147,6 +147,7 @@ absl::Status SqliteJourneyStore::DeleteHidden(Pieces pieces) {
 }
 
 absl::Status SqliteJourneyStore::FinishDeletions() {
+  if (read_only()) return absl::OkStatus();
   bool is_hidden = false;
   {
     const MutexLock lock(write_mutex_);
