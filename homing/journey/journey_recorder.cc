@@ -5,9 +5,13 @@
 #include "absl/strings/str_cat.h"
 #include "homing/base/field_error.h"
 #include "homing/base/status_macros.h"
+#include "homing/flow/vertical_turn.h"
 
 namespace homing {
 namespace {
+
+// A turn that is less sure is not stored, rad squared.
+constexpr double kMostTurnVariance = 0.01 * 0.01;
 
 InputKind KindOf(const CameraView& view) {
   if (std::holds_alternative<Frame>(view)) {
@@ -116,7 +120,13 @@ void JourneyRecorder::AddLandmarks(Side side, const SeenStep& seen, JourneyStep&
     return;
   }
   // Added to the paper: where the vectors are, and how far away.
-  step.profiles[index] = MakeFlowProfile(*field);
+  FlowProfile profile = MakeFlowProfile(*field);
+  // Added to the paper: how the path bends here, as one camera sees it alone.
+  const VerticalTurn bend = ReadVerticalTurn(*field, settings_.cameras[index]);
+  if (profile.odometer.has_value() && bend.variance < kMostTurnVariance) {
+    profile.odometer.turn_code = OdometerReading::TurnCode(bend.turn);
+  }
+  step.profiles[index] = profile;
   // III: numbered along the journey.
   const std::vector<SeenLandmark>& landmarks = seen.landmarks[index];
   const std::vector<Fingerprint> numbered = tracker_.Associate(step.step, side, landmarks);

@@ -53,6 +53,17 @@ Motions MotionsOf(const FlowField& field) {
 
 }  // namespace
 
+std::int16_t OdometerReading::TurnCode(double turn) {
+  constexpr double kMost = std::numeric_limits<std::int16_t>::max();
+  const double code = std::clamp(std::round(turn * kTurnPerRad), -kMost, kMost);
+  return code == 0 ? std::int16_t{1} : static_cast<std::int16_t>(code);
+}
+
+std::optional<double> OdometerReading::turn() const {
+  if (turn_code == 0) return std::nullopt;
+  return turn_code / kTurnPerRad;
+}
+
 OdometerReading ReadOdometer(const FlowField& field) {
   const Motions motions = MotionsOf(field);
   const std::size_t count = motions.x.size();
@@ -73,7 +84,8 @@ OdometerReading ReadOdometer(const FlowField& field) {
   return {.median_x = SignedCode(median_x),
           .expansion = SignedCode(Median(expansions)),
           .length_code = LengthCode(Median(lengths)),
-          .spread_code = LengthCode(Median(spreads))};
+          .spread_code = LengthCode(Median(spreads)),
+          .turn_code = 0};
 }
 
 }  // namespace homing

@@ -5,6 +5,7 @@
 #define HOMING_LANDMARK_ODOMETER_READING_H_
 
 #include <cstdint>
+#include <optional>
 
 #include "homing/flow/flow_vector.h"
 
@@ -30,6 +31,13 @@ struct OdometerReading {
   // no rotation changes much. 0: no reading.
   std::uint8_t length_code = 0;
   std::uint8_t spread_code = 0;
+  // Turn of the camera to the left, as the vertical flow shows it: TurnCode. 0: no reading.
+  std::int16_t turn_code = 0;
+
+  // Units of a turn: 1/16384 rad. A turn of less than half a unit is told as one.
+  static constexpr double kTurnPerRad = 16384;
+  static std::int16_t TurnCode(double turn);
+  std::optional<double> turn() const;
 
   bool has_value() const { return length_code != 0; }
   friend bool operator==(const OdometerReading&, const OdometerReading&) = default;

@@ -17,16 +17,20 @@ constexpr std::size_t kBitmapBytes = kOldCells / 8;
 constexpr std::size_t kOldMost = kBitmapBytes + kOldCells;
 // The present format: the odometer reading, a nibble of count code a cell, a nibble of parallax
 // code for two cells. Longer than any of the first format.
-constexpr std::size_t kOdometerBytes = 6;
+constexpr std::size_t kOdometerBytes = 8;
 constexpr std::size_t kCountBytes = FlowProfile::kCells / 2;
 constexpr std::size_t kParallaxBytes = FlowProfile::kCells / 4;
 constexpr std::size_t kBytes = kOdometerBytes + kCountBytes + kParallaxBytes;
-static_assert(kBytes > kOldMost && kBytes == kProfileBytes);
+// The format before it had no turn.
+constexpr std::size_t kTurnAt = 6;
+constexpr std::size_t kTurnBytes = 2;
+constexpr std::size_t kBytesWithoutTurn = kBytes - kTurnBytes;
+static_assert(kBytesWithoutTurn > kOldMost && kBytes == kProfileBytes);
 
 absl::Status NotAProfile(std::size_t size) {
   return absl::InvalidArgumentError(absl::StrCat("flow profile: ", size, " bytes must be ", kBytes,
-                                                 " bytes, or an older profile of 13 to ", kOldMost,
-                                                 " bytes"));
+                                                 ", or an older profile of ", kBytesWithoutTurn,
+                                                 " or 13 to ", kOldMost, " bytes"));
 }
 
 using OldCells = std::array<std::uint8_t, kOldCells>;
@@ -119,6 +123,7 @@ std::string EncodeProfile(const FlowProfile& profile) {
   PutSigned(profile.odometer.expansion, bytes);
   bytes.push_back(static_cast<char>(profile.odometer.length_code));
   bytes.push_back(static_cast<char>(profile.odometer.spread_code));
+  PutSigned(profile.odometer.turn_code, bytes);
   for (int cell = 0; cell < FlowProfile::kCells; cell += 2) {
     bytes.push_back(
         static_cast<char>(profile.count_code(cell) | profile.count_code(cell + 1) << 4));
@@ -139,13 +144,19 @@ absl::StatusOr<FlowProfile> DecodeProfile(std::string_view bytes) {
     const auto old = DecodeOldCells(bytes);
     return old.ok() ? absl::StatusOr<FlowProfile>(Resample(*old)) : old.status();
   }
+  if (bytes.size() == kBytesWithoutTurn) {
+    std::string with_turn(bytes);
+    with_turn.insert(kTurnAt, kTurnBytes, 0);
+    return DecodeProfile(with_turn);
+  }
   if (bytes.size() != kBytes) {
     return NotAProfile(bytes.size());
   }
   profile.odometer = {.median_x = SignedAt(bytes, 0),
                       .expansion = SignedAt(bytes, 2),
                       .length_code = static_cast<std::uint8_t>(bytes[4]),
-                      .spread_code = static_cast<std::uint8_t>(bytes[5])};
+                      .spread_code = static_cast<std::uint8_t>(bytes[5]),
+                      .turn_code = SignedAt(bytes, kTurnAt)};
   for (std::size_t cell = 0; cell < FlowProfile::kCells; ++cell) {
     const int count = NibbleAt(bytes, kOdometerBytes, cell);
     const int parallax = NibbleAt(bytes, kOdometerBytes + kCountBytes, cell / 2);

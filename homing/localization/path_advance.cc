@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "homing/localization/path_pose.h"
 
@@ -15,17 +16,40 @@ constexpr double kLeastStored = 0.004;
 constexpr double kLeastSteps = 0.2;
 constexpr double kFollow = 0.3;
 
+// The path's bend is read over so many steps either way, from at least so many turns.
+constexpr std::int64_t kBendSteps = 4;
+constexpr std::ptrdiff_t kLeastTurns = 5;
+
 double Middle(double a, double b, double c) {
   return std::max(std::min(a, b), std::min(std::max(a, b), c));
 }
 
 }  // namespace
 
+std::optional<double> PathPoseFilter::StoredBend(const JourneyMap& map, std::int64_t step) {
+  std::vector<double> turns;
+  for (const Side side : {Side::kLeft, Side::kRight}) {
+    const auto profiles = map.profiles(side);
+    const auto count = static_cast<std::int64_t>(profiles.size());
+    for (std::int64_t s = std::max<std::int64_t>(0, step - kBendSteps);
+         s < std::min(count, step + kBendSteps + 1); ++s) {
+      if (const auto turn = profiles[static_cast<std::size_t>(s)].odometer.turn()) {
+        turns.push_back(*turn);
+      }
+    }
+  }
+  if (std::ssize(turns) < kLeastTurns) return std::nullopt;
+  const auto middle = turns.begin() + std::ssize(turns) / 2;
+  std::ranges::nth_element(turns, middle);
+  return *middle;
+}
+
 // Without the turn, each side's flow is the stored one, less what the path's own bend put into it,
 // times the steps advanced. Where something has gone, one side is wrong, and the other agrees with
 // what was before: the middle one of three counts. A bend is one that both sides agree on.
 PathPoseFilter::Advance PathPoseFilter::AdvanceOf(const std::array<double, 2>& now,
-                                                  const std::array<double, 2>& then, double turn) {
+                                                  const std::array<double, 2>& then, double turn,
+                                                  std::optional<double> bend) {
   std::array<double, 2> moved{};
   for (const Side side : {Side::kLeft, Side::kRight}) {
     // What is nearer moves faster.
@@ -36,6 +60,7 @@ PathPoseFilter::Advance PathPoseFilter::AdvanceOf(const std::array<double, 2>& n
   }
   const double mean = (moved[1] - moved[0]) / (then[1] - then[0]);
   if (!advance_) advance_ = Advance{.steps = mean, .bend = 0};
+  if (bend) advance_->bend = *bend;
   const auto steps_of = [&](std::size_t side) {
     const double stored = then[side] - advance_->bend;
     return std::abs(stored) > kLeastStored ? moved[side] / stored : mean;
@@ -43,7 +68,9 @@ PathPoseFilter::Advance PathPoseFilter::AdvanceOf(const std::array<double, 2>& n
   Advance result;
   result.steps = Middle(steps_of(0), steps_of(1), advance_->steps);
   result.bend = kForgetBend * advance_->bend;
-  if (std::abs(result.steps) > kLeastSteps) {
+  if (bend) {
+    result.bend = *bend;
+  } else if (std::abs(result.steps) > kLeastSteps) {
     const double left = then[0] - moved[0] / result.steps;
     const double right = then[1] - moved[1] / result.steps;
     const double most = kMostBend * 0.5 * std::abs(then[1] - then[0]);

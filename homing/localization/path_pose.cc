@@ -6,9 +6,9 @@
 #include <span>
 #include <vector>
 
+#include "homing/flow/vertical_turn.h"
 #include "homing/landmark/flow_profile.h"
 #include "homing/landmark/odometer_reading.h"
-#include "homing/localization/vertical_turn.h"
 #include "homing/profile/profile_distance.h"
 
 namespace homing {
@@ -48,6 +48,9 @@ constexpr double kDrivenAtStart = 0.06;
 // distances of what is seen.
 constexpr double kMapTurn = 0.002;
 constexpr double kMapTurnError = 0.1;
+// The same where the path's bend is known, so that the vertical flow alone shows the turn: what has
+// gone from one side puts its share of the flow into the turn that is read against the map.
+constexpr double kChangedMapTurnError = 0.5;
 // Deviation of a turn that nothing shows, rad an observation.
 constexpr double kUnseenTurn = 0.03;
 // Opposite sideways flows that differ by less say nothing of the motion, pixels.
@@ -115,14 +118,16 @@ bool PathPoseFilter::Predict(const JourneyMap& map, std::int64_t step, const Obs
   const double focal = FocalOf(0, flow.fields[0]->width);
   if (std::abs(advance) * focal < kLeastAdvancePx) return false;
   const VerticalTurn vertical = ReadVerticalTurn(flow, cameras_);
-  const Advance moved = AdvanceOf(now, then, vertical.turn);
+  const std::optional<double> bend = StoredBend(map, step);
+  const Advance moved = AdvanceOf(now, then, vertical.turn, bend);
   driven_ = 0.5 * moved.steps * advance * (travel_ == Travel::kReturn ? -1 : 1);
   const double by_vertical = vertical.turn - moved.steps * moved.bend;
   // A turn that is read against the map alone.
   const double ratio = (now[1] - now[0]) / advance;
   const double by_map =
       0.5 * (now[0] + now[1] - ratio * (then[0] + then[1])) + driven_ * pose_.offset;
-  const double map_variance = kMapTurn * kMapTurn + std::pow(kMapTurnError * driven_, 2);
+  const double map_error = bend ? kChangedMapTurnError : kMapTurnError;
+  const double map_variance = kMapTurn * kMapTurn + std::pow(map_error * driven_, 2);
   const double share = map_variance / (map_variance + vertical.variance);
   turned_ = by_map + share * (by_vertical - by_map);
   if (!std::isfinite(turned_) || std::abs(turned_) > kMostTurn || !std::isfinite(driven_)) {

@@ -72,9 +72,13 @@ class PathPoseFilter {
     double steps = 0;
     double bend = 0;
   };
-  // `now` and `then` (at the step): sideways flow, rad, by side of the route.
+  // The path's own turn a step around a step, rad to the left, as the way out shows it. Nothing
+  // where too few cameras saw it, and of an older map.
+  static std::optional<double> StoredBend(const JourneyMap& map, std::int64_t step);
+  // `now` and `then` (at the step): sideways flow, rad, by side of the route; `bend`: as
+  // StoredBend.
   Advance AdvanceOf(const std::array<double, 2>& now, const std::array<double, 2>& then,
-                    double turn);
+                    double turn, std::optional<double> bend);
   // Focal length of a camera whose images have this width, pixels.
   double FocalOf(std::size_t camera, int width) const;
   FlowField Turned(const FlowField& field, std::size_t camera, double heading) const;

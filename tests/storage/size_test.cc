@@ -62,7 +62,7 @@ TEST(StoreSize, ACameraStepWithItsFlowProfileTakesAtMost180Bytes) {
   }
   const double bytes = static_cast<double>(std::filesystem::file_size(folder.File("homing.db")));
   RecordProperty("bytes_per_camera_step", std::to_string(bytes / (2 * kSteps)));
-  // Of these, 126 are the profile with its odometer reading.
+  // Of these, 128 are the profile with its odometer reading.
   EXPECT_LE(bytes / (2 * kSteps), 180.0);
   EXPECT_GE(bytes / (2 * kSteps), 60.0);
 }

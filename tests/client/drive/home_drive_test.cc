@@ -60,6 +60,25 @@ class HomeDriveTest : public ::testing::TestWithParam<const char*> {
   std::unique_ptr<PosedCameras> cameras_;
   JourneyMap map_;
 };
+
+// The sum of the turns in the answers to a robot that follows the path exactly.
+double ToldHeading(const std::string& scene, const std::string& changed) {
+  const auto out = *PosedCameras::Create(*ParseSimulationSpec(scene));
+  const auto home = *PosedCameras::Create(*ParseSimulationSpec(scene + changed));
+  ProjectedEyes out_eyes(out.get(), {}), home_eyes(home.get(), {.seed = 2});
+  const JourneyMap map = *drive::RecordOut(out->route(), {}, &out_eyes);
+  drive::LocalLocalizer localizer(&map, Travel::kReturn);
+  double heading = 0;
+  std::int64_t frame = 0;
+  for (double at = 60; at > 5; at -= 0.1) {
+    Pose pose = out->route().At(at);
+    pose.heading += kTurn / 2;
+    Observation seen = home_eyes.See(pose, 5000 + frame);
+    seen.sequence = frame++;
+    heading += localizer.Answer(seen)->turn.value_or(0);
+  }
+  return heading;
+}
 INSTANTIATE_TEST_SUITE_P(Scenes, HomeDriveTest,
                          ::testing::Values("sim:street,length=20,seed=1",
                                            "sim:landmarks,length=20,seed=2"));
@@ -94,6 +113,14 @@ TEST_P(HomeDriveTest, PathOffsetGrowsWithTheOffsetAndIsNearTheTruth) {
   for (std::size_t i = 0; i < kLeftM.size(); ++i) {
     if (std::abs(kLeftM[i]) > sure_m) continue;
     EXPECT_NEAR(told[i] * both / squares, kLeftM[i], 0.2);
+  }
+}
+
+// What has gone from one side looks like a bend of the path, or like a turn.
+TEST(ToldHeadingTest, IsThatBesideThePathWhereLandmarksHaveGone) {
+  for (const char* scene :
+       {"sim:landmarks,length=60,seed=31", "sim:landmarks,length=60,seed=31,corner=30"}) {
+    EXPECT_NEAR(ToldHeading(scene, ",drive=7,remove=0.25"), 0, 0.1) << scene;
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace homing {
@@ -63,6 +64,16 @@ TEST(OdometerReadingTest, FewVectorsSayNothing) {
   FlowField field = FieldOf([](float, float) { return std::pair(2.0F, 0.0F); });
   field.vectors.resize(OdometerReading::kLeastVectors - 1);
   EXPECT_FALSE(ReadOdometer(field).has_value());
+}
+
+TEST(OdometerReadingTest, ATurnOfNothingIsAReading) {
+  OdometerReading reading;
+  EXPECT_FALSE(reading.turn());
+  for (const double turn : {0.0, 0.01, -0.01, 5.0}) {
+    reading.turn_code = OdometerReading::TurnCode(turn);
+    ASSERT_TRUE(reading.turn()) << turn;
+    EXPECT_NEAR(*reading.turn(), std::min(turn, 2.0), 1e-3);
+  }
 }
 
 }  // namespace

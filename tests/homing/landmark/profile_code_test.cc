@@ -14,7 +14,8 @@ TEST(ProfileCodeTest, RoundTripsAnyProfile) {
     profile.odometer = {.median_x = static_cast<std::int16_t>(engine()),
                         .expansion = static_cast<std::int16_t>(engine()),
                         .length_code = static_cast<std::uint8_t>(engine()),
-                        .spread_code = static_cast<std::uint8_t>(engine())};
+                        .spread_code = static_cast<std::uint8_t>(engine()),
+                        .turn_code = static_cast<std::int16_t>(engine())};
     // Two cells beside each other share a parallax code.
     for (std::size_t cell = 0; cell < FlowProfile::kCells; cell += 2) {
       const auto parallax = static_cast<std::uint8_t>(engine() % 16 << 4);
@@ -56,6 +57,14 @@ TEST(ProfileCodeTest, ReadsTheFirstFormatAtTheSamePlaces) {
   EXPECT_EQ(profile->count_code(0), 0);
 }
 
+TEST(ProfileCodeTest, ReadsTheFormatWithoutATurn) {
+  FlowProfile profile;
+  profile.cells[8] = profile.cells[9] = 0x85;
+  profile.odometer.length_code = 7;
+  std::string bytes = EncodeProfile(profile);
+  EXPECT_EQ(DecodeProfile(bytes.erase(6, 2)).value(), profile);
+}
+
 TEST(ProfileCodeTest, RefusesWhatIsCutLengthenedOrHasAZero) {
   FlowProfile profile;
   profile.cells[8] = 0x85;
@@ -63,6 +72,8 @@ TEST(ProfileCodeTest, RefusesWhatIsCutLengthenedOrHasAZero) {
   // An older profile of as many bytes would have other bits in its bitmap.
   for (const std::string& bytes : {OldBytes(), EncodeProfile(profile)}) {
     for (std::size_t size = 1; size < bytes.size(); ++size) {
+      // Two bytes less are the format without a turn.
+      if (size + 2 == kProfileBytes) continue;
       EXPECT_FALSE(DecodeProfile(bytes.substr(0, size)).ok()) << size;
     }
     EXPECT_FALSE(DecodeProfile(bytes + "x").ok());

@@ -1,7 +1,7 @@
 // The turn that the vertical flow shows: driving along the heading moves nothing up or down in
 // cameras that look across, a turn does.
-#ifndef HOMING_LOCALIZATION_VERTICAL_TURN_H_
-#define HOMING_LOCALIZATION_VERTICAL_TURN_H_
+#ifndef HOMING_FLOW_VERTICAL_TURN_H_
+#define HOMING_FLOW_VERTICAL_TURN_H_
 
 #include <array>
 
@@ -16,9 +16,11 @@ struct VerticalTurn {
   double variance = 1;
 };
 
-// A camera without flow does not contribute.
+// Of one camera; without intrinsics a field of view of 60 degrees is assumed.
+VerticalTurn ReadVerticalTurn(const FlowField& field, const Camera& camera);
+// Of both. A camera without flow does not contribute.
 VerticalTurn ReadVerticalTurn(const ObservedFlow& flow, const std::array<Camera, 2>& cameras);
 
 }  // namespace homing
 
-#endif  // HOMING_LOCALIZATION_VERTICAL_TURN_H_
+#endif  // HOMING_FLOW_VERTICAL_TURN_H_

@@ -1,13 +1,13 @@
-#include "homing/localization/vertical_turn.h"
+#include "homing/flow/vertical_turn.h"
 
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
-#include "homing/landmark/odometer_reading.h"
-#include "homing/localization/path_pose.h"
+#include "homing/flow/motion.h"
 
 namespace homing {
 namespace {
@@ -18,12 +18,9 @@ constexpr double kLeastNoisePx = 0.1;
 
 }  // namespace
 
-namespace {
-
-// Of one camera.
-VerticalTurn ReadOne(const FlowField& field, const Camera& camera) {
+VerticalTurn ReadVerticalTurn(const FlowField& field, const Camera& camera) {
   const auto& in = camera.intrinsics;
-  const double focal = in ? in->focal_x : PathPoseFilter::UsualFocal(field.width);
+  const double focal = in ? in->focal_x : 0.5 * field.width / std::tan(std::numbers::pi / 6);
   const double center_x = in ? in->center_x : 0.5 * (field.width - 1);
   const double center_y = in ? in->center_y : 0.5 * (field.height - 1);
   // v = turn x y + tilt (1 + y^2) - roll x, in focal lengths; then again without what lies far
@@ -34,7 +31,7 @@ VerticalTurn ReadOne(const FlowField& field, const Camera& camera) {
     Eigen::Matrix3d normal = 1e-9 * Eigen::Matrix3d::Identity();
     Eigen::Vector3d right = Eigen::Vector3d::Zero();
     double squares = 0;
-    int used = 0;
+    std::size_t used = 0;
     for (const FlowVector& v : field.vectors) {
       const double x = (v.MidX() - center_x) / focal, y = (v.MidY() - center_y) / focal;
       const Eigen::Vector3d row(x * y, 1 + y * y, -x);
@@ -45,9 +42,10 @@ VerticalTurn ReadOne(const FlowField& field, const Camera& camera) {
       squares += error * error;
       ++used;
     }
-    if (used < OdometerReading::kLeastVectors) return {};
+    if (used < kMinVectors) return {};
     fit = normal.ldlt().solve(right);
-    if (pass > 0) noise = std::max(kLeastNoisePx / focal, std::sqrt(squares / used));
+    if (pass > 0)
+      noise = std::max(kLeastNoisePx / focal, std::sqrt(squares / static_cast<double>(used)));
     if (pass == 2) {
       const double variance = noise * noise * normal.inverse()(0, 0);
       if (variance > 0 && std::isfinite(fit[0])) return {fit[0], variance};
@@ -56,13 +54,11 @@ VerticalTurn ReadOne(const FlowField& field, const Camera& camera) {
   return {};
 }
 
-}  // namespace
-
 VerticalTurn ReadVerticalTurn(const ObservedFlow& flow, const std::array<Camera, 2>& cameras) {
   double weight = 0, sum = 0;
   for (std::size_t camera = 0; camera < 2; ++camera) {
     if (!flow.fields[camera]) continue;
-    const VerticalTurn one = ReadOne(*flow.fields[camera], cameras[camera]);
+    const VerticalTurn one = ReadVerticalTurn(*flow.fields[camera], cameras[camera]);
     weight += 1 / one.variance;
     sum += one.turn / one.variance;
   }

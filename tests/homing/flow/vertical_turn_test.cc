@@ -1,4 +1,4 @@
-#include "homing/localization/vertical_turn.h"
+#include "homing/flow/vertical_turn.h"
 
 #include <gtest/gtest.h>
 
