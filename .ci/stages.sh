@@ -131,7 +131,7 @@ stage_faults() {
 }
 
 # Robots drive home by the answers alone: some under each condition, and two through a server. Uses the build of the
-# tests. Only by name, `.ci/run drive`: with a quarter of the landmarks removed fewer come home than must.
+# tests.
 stage_drive() {
   if [ -d "$scratch/root/homing" ]; then
     in_bare_root sh /homing/tests/drive/run.sh --quick
