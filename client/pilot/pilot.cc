@@ -134,9 +134,9 @@ void Pilot::TakePlace(const PilotAnswer& answer) {
   known_.remaining_m += (std::abs(off_m) < kJumpM ? gain : 1) * off_m;
 }
 
-// What lies far from where the robot was a moment ago is believed when it has been told for a
-// while, each time as far on as the robot has driven: until then the place is carried on. What is
-// told beside the path there says nothing of here.
+// A place far from the robot's last place is believed once the answers have repeated it for a while
+// and it has moved as far as the robot has driven. Until then the pilot dead-reckons, and ignores
+// the offset that belongs to that place.
 bool Pilot::IsElsewhere(const PilotAnswer& answer, double ahead_m) {
   if (!answer.progress_home || state_ == State::kSearching ||
       std::abs(ahead_m) < kJumpM + kJumpPerM * unsure_m_) {

@@ -34,7 +34,7 @@ struct OdometerReading {
   // Turn of the camera to the left, as the vertical flow shows it: TurnCode. 0: no reading.
   std::int16_t turn_code = 0;
 
-  // Units of a turn: 1/16384 rad. A turn of less than half a unit is told as one.
+  // Units of a turn: 1/16384 rad. A turn below half a unit counts as one.
   static constexpr double kTurnPerRad = 16384;
   static std::int16_t TurnCode(double turn);
   std::optional<double> turn() const;

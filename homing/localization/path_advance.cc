@@ -7,16 +7,15 @@
 namespace homing {
 namespace {
 
-// Sharpest bend of a path, rad for a distance of what is seen: where the sides disagree by more,
-// something has gone, and the bend of before is forgotten.
+// Sharpest bend of a path, rad for a unit driven. Where the two sides disagree by more, an object
+// has disappeared, and the earlier bend is forgotten.
 constexpr double kMostBend = 0.3;
 constexpr double kForgetBend = 0.9;
-// Stored flow, rad, and steps that are too little to divide by; how fast what was before follows.
+// Stored flow, rad, and steps below which a division says nothing; weight of the latest bend.
 constexpr double kLeastStored = 0.004;
 constexpr double kLeastSteps = 0.2;
 constexpr double kFollow = 0.3;
-
-// The path's bend is read over so many steps either way, from at least so many turns.
+// The path's bend is the median of the turns this many steps either way, of at least kLeastTurns.
 constexpr std::int64_t kBendSteps = 4;
 constexpr std::ptrdiff_t kLeastTurns = 5;
 

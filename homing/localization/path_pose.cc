@@ -14,10 +14,12 @@
 namespace homing {
 namespace {
 
-// Deviations before anything was seen: distances of what is seen, rad.
+// Lengths are in units of the distance of the seen objects, as METHOD 7 has them.
+//
+// Deviations before anything was seen: of the offset, and of the heading, rad.
 constexpr double kFirstOffset = 0.15;
 constexpr double kFirstHeading = 0.15;
-// What an observation adds to the deviations, a distance driven: rad, and distances. A turn adds a
+// Growth of the deviations for a unit driven: of the heading, rad, and of the offset. A turn adds a
 // share of itself to the heading's.
 constexpr double kHeadingDrift = 0.06;
 constexpr double kOffsetDrift = 0.05;
@@ -31,21 +33,20 @@ constexpr double kLeastOffsetStep = 0.06, kMostOffsetStep = 0.15;
 constexpr double kLeastHeadingStep = 0.04, kMostHeadingStep = 0.12;
 constexpr double kMostOffset = 0.6;
 constexpr double kMostHeading = 0.8;
-// Between two steps, rad; more is no measurement.
+// Largest turn between two steps, rad: a reading above it is an error.
 constexpr double kMostTurn = 0.5;
 // Steps tried either way.
 constexpr std::int64_t kSteps = 10;
 // Log likelihood of a unit of profile distance. The pose is corrected each time that the robot has
-// driven so far: nearer views show the same again. Distances of what is seen.
+// driven kFullWeight: views that are nearer to each other repeat the same evidence.
 constexpr double kPerDistance = 1.0 / 60;
 constexpr double kFullWeight = 0.10;
-// Less driven, and less than this share of the turn, shows no depth; the first offset is told after
-// so much. Distances of what is seen.
+// A motion below this, or below this share of the turn, shows no depth. The first offset is
+// reported after kDrivenAtStart.
 constexpr double kLeastDriven = 0.003;
 constexpr double kLeastOfTurn = 0.15;
 constexpr double kDrivenAtStart = 0.06;
-// Error of a turn that is read against the map: rad, and a share of the distance driven, in
-// distances of what is seen.
+// Error of a turn that is read against the map: rad, and rad for a unit driven.
 constexpr double kMapTurn = 0.002;
 constexpr double kMapTurnError = 0.1;
 // The same where the path's bend is known, so that the vertical flow alone shows the turn: what has
@@ -95,8 +96,7 @@ double PathPoseFilter::FocalOf(std::size_t camera, int width) const {
 }
 
 // METHOD 7: the motion along the path moves the images of both sides against each other, a turn
-// moves them alike, and so does an offset: by the distance driven times the offset, both in
-// distances of what is seen.
+// moves them alike, and so does an offset: by the distance driven times the offset.
 bool PathPoseFilter::Predict(const JourneyMap& map, std::int64_t step, const ObservedFlow& flow) {
   turned_ = 0;
   driven_ = 0;
