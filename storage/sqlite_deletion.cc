@@ -124,7 +124,7 @@ absl::Status SqliteJourneyStore::DeleteJourney(const std::string& name) {
 absl::Status SqliteJourneyStore::DeleteOnce(const std::string& name, Pieces pieces,
                                             bool* is_hidden) {
   if (!*is_hidden) {
-    const absl::Status status = Write([&](Connection& connection) {
+    absl::Status status = Write([&](Connection& connection) {
       appends_.ForgetEpoch(name);
       return DeleteOrHide(connection, name, pieces.steps, is_hidden);
     });

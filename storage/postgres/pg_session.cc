@@ -87,7 +87,7 @@ void PgPool::GiveBack(std::unique_ptr<PgConnection> connection) {
 absl::Status PgPool::Use(const Body& body, Deadline deadline, bool* is_lost) {
   *is_lost = true;
   HOMING_ASSIGN_OR_RETURN(std::unique_ptr<PgConnection> connection, Take(deadline));
-  const absl::Status status = body(*connection, deadline);
+  absl::Status status = body(*connection, deadline);
   *is_lost = connection->is_lost();
   GiveBack(std::move(connection));
   return status;
