@@ -4,7 +4,6 @@
 //        [--trace I]      Of each condition, robot number I alone, with a line an observation.
 #include <algorithm>
 #include <atomic>
-#include <cmath>
 #include <cstdlib>
 #include <iostream>
 #include <optional>
@@ -61,24 +60,11 @@ std::vector<Fared> DriveAll(const Condition& condition, const Flags& flags) {
   return fared;
 }
 
-// Robots whose share home is judged as it is. Of fewer, a share whose 95 % interval (Wilson) holds
-// the bound is unsure, and fails nothing.
-constexpr int kEnoughRobots = 100;
-
-bool IsUnsure(double share, double robots, double bound) {
-  constexpr double kDeviations = 1.96;
-  const double spread = kDeviations * kDeviations / robots;
-  const double middle = share + spread / 2;
-  const double half = kDeviations * std::sqrt(share * (1 - share) / robots + spread / (4 * robots));
-  return robots < kEnoughRobots && std::abs(bound * (1 + spread) - middle) <= half;
-}
-
 // False: short.
-bool Print(const std::string& name, double value, const std::string& bound, bool is_ok,
-           bool is_unsure = false) {
-  const char* const verdict = is_ok ? "ok" : is_unsure ? "unsure" : "short";
-  std::cout << absl::StrFormat("%-40s %8.3f %8s %s\n", name, value, bound, verdict) << std::flush;
-  return is_ok || is_unsure;
+bool Print(const std::string& name, double value, const std::string& bound, bool is_ok) {
+  std::cout << absl::StrFormat("%-40s %8.3f %8s %s\n", name, value, bound, is_ok ? "ok" : "short")
+            << std::flush;
+  return is_ok;
 }
 
 bool Judge(const Condition& condition, const std::vector<Fared>& all) {
@@ -96,8 +82,7 @@ bool Judge(const Condition& condition, const std::vector<Fared>& all) {
   bool ok = Print(absl::StrFormat("%s: home of %d", condition.name, all.size()), share,
                   is_upper ? absl::StrFormat("<=%.2f", condition.most_home)
                            : absl::StrFormat(">=%.2f", condition.least_home),
-                  share >= condition.least_home && share <= condition.most_home,
-                  IsUnsure(share, robots, is_upper ? condition.most_home : condition.least_home));
+                  share >= condition.least_home && share <= condition.most_home);
   if (!condition.bounds_error || beside.empty()) return ok;
   const double median = beside[beside.size() / 2];
   const double most = beside[beside.size() * 95 / 100];

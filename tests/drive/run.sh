@@ -1,10 +1,9 @@
 #!/bin/sh
-# Drives simulated robots home by the answers alone and prints a line for each bound (name value bound ok|short|unsure).
-# Exits 1 if any is short; a share of fewer than 100 robots is unsure where its 95 % interval holds the bound. The robots of
-# the statistics run the server's recorder and localizer in this process, on corners that are projected from the same worlds
-# (true flow, with the noise, losses and clutter of a tracker): an image drive takes 20 s of a core, a projected one 1 s.
-# Those on rendered images with tracked flow are the last rows, and the drives through a real server, one of which is killed
-# and started again on the way.
+# Drives simulated robots home by the answers alone and prints a line for each bound (name value bound ok|short). Exits 1 if
+# any is short. The robots of the statistics run the server's recorder and localizer in this process, on corners that are
+# projected from the same worlds (true flow, with the noise, losses and clutter of a tracker): an image drive takes 20 s of a
+# core, a projected one 1 s. Those on rendered images with tracked flow are the last rows, and the drives through a real
+# server, one of which is killed and started again on the way.
 # usage: tests/drive/run.sh [--quick]     --quick: 24 robots a row instead of 100, and one image drive of a kind; about 3 minutes
 # HOMING_BUILD names a build with homing-server, homing and homing_drive_rows (default: build/dev, built if need be).
 set -eu
