@@ -74,15 +74,15 @@ class SqliteJourneyStore final : public JourneyStore {
   absl::Status Write(const Body& body);
   absl::Status Transact(const Body& body);
   struct Pieces {
-    // In one transaction.
+    // Steps that one transaction deletes.
     std::int64_t steps;
-    // Each piece waits until the log is in the file, and overwrites it.
+    // Before each piece the log is moved into the file; the piece then overwrites the log.
     bool reuse_log;
   };
-  // Deletes a journey, one of more than a piece in pieces. OUT: it is hidden, and some of its steps
-  // are left; a further call goes on with these.
+  // Deletes a journey; in pieces if it has more steps than one piece. IN and OUT `is_hidden`: an
+  // earlier call hid the journey, and some of its steps are left to delete.
   absl::Status DeleteOnce(const std::string& name, Pieces pieces, bool* is_hidden);
-  // The steps that are left of all hidden journeys.
+  // Deletes the steps that are left of all hidden journeys.
   absl::Status DeleteHidden(Pieces pieces);
   // Fills the reserve if the disk has space.
   void FillReserve() HOMING_REQUIRES(reserve_mutex_);

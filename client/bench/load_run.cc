@@ -28,8 +28,6 @@ constexpr int kSceneSteps = 250;
 constexpr int kOutDrive = 1;
 constexpr int kSecondDrive = 2;
 constexpr int kSceneFrames = 60;
-// Time for the last answers after the last observation.
-constexpr std::chrono::seconds kGrace{30};
 
 std::string RobotOf(const LoadOptions& options, int robot) {
   return absl::StrCat("robots/", options.prefix, robot);
@@ -160,7 +158,9 @@ class Drive {
     }
     for (const auto& robot : robots_) robot->HalfClose();
     const auto ended = [](const auto& robot) { return robot->done(); };
-    const LoadClock::time_point deadline = LoadClock::now() + kGrace;
+    const LoadClock::time_point deadline =
+        LoadClock::now() +
+        std::chrono::duration_cast<LoadClock::duration>(Seconds(options_.grace_seconds));
     while (!std::all_of(robots_.begin(), robots_.end(), ended) && LoadClock::now() < deadline) {
       Tick();
     }
@@ -272,6 +272,7 @@ absl::Status Validate(const LoadOptions& options) {
   HOMING_RETURN_IF_ERROR(CheckAbove("rate", options.rate, 0.0, 1000.0));
   HOMING_RETURN_IF_ERROR(CheckAbove("seconds", options.seconds, 0.0, 1e6));
   HOMING_RETURN_IF_ERROR(CheckRange("ramp", options.ramp_seconds, 0.0, 1e6));
+  HOMING_RETURN_IF_ERROR(CheckAbove("grace", options.grace_seconds, 0.0, 1e6));
   HOMING_RETURN_IF_ERROR(CheckRange("vectors", options.vectors, 0, 100'000));
   HOMING_RETURN_IF_ERROR(CheckRange("journeys", options.journeys, 1, 100'000));
   return CheckRange("steps", options.steps, 1, 1'000'000);

@@ -29,6 +29,8 @@ struct LoadOptions {
   // The number of journeys that localising robots share, and their steps; they are recorded first.
   int journeys = 10;
   int steps = 2000;
+  // Time for the last answers after the last observation, s. (0, 1e6].
+  double grace_seconds = 30;
   // Prefix of the robots' ids; a number follows.
   std::string prefix = "bench";
   // Record the journeys only.

@@ -104,6 +104,8 @@ absl::Status Validate(const Camera& camera) {
   return absl::OkStatus();
 }
 
+double UsualFocal(int width) { return 0.5 * width / std::tan(std::numbers::pi / 6); }
+
 FlowField Rectify(const FlowField& raw, const Camera& camera) {
   const bool ideal =
       !camera.intrinsics.has_value() || (!IsDistorted(camera) && camera.yaw_rad == 0);

@@ -38,6 +38,9 @@ struct Camera {
 // INVALID_ARGUMENT naming field, value and limit.
 absl::Status Validate(const Camera& camera);
 
+// The focal length assumed for a camera without intrinsics: a field of view of 60 degrees. Pixels.
+double UsualFocal(int width);
+
 // The vectors that the ideal camera of the same intrinsics would have seen. Without intrinsics: the
 // same vectors. Vectors that the ideal camera cannot see, and non-finite ones, are dropped.
 FlowField Rectify(const FlowField& raw, const Camera& camera);

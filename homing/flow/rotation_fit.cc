@@ -7,7 +7,6 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <numbers>
 #include <span>
 #include <vector>
 
@@ -33,7 +32,7 @@ Intrinsics IntrinsicsOf(const FlowField& field, const Camera& camera) {
   if (camera.intrinsics.has_value()) {
     return *camera.intrinsics;
   }
-  const double focal = 0.5 * field.width / std::tan(std::numbers::pi / 6);
+  const double focal = UsualFocal(field.width);
   return {focal, focal, 0.5 * (field.width - 1), 0.5 * (field.height - 1)};
 }
 

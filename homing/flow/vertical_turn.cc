@@ -5,7 +5,6 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "homing/flow/motion.h"
 
@@ -20,7 +19,7 @@ constexpr double kLeastNoisePx = 0.1;
 
 VerticalTurn ReadVerticalTurn(const FlowField& field, const Camera& camera) {
   const auto& in = camera.intrinsics;
-  const double focal = in ? in->focal_x : 0.5 * field.width / std::tan(std::numbers::pi / 6);
+  const double focal = in ? in->focal_x : UsualFocal(field.width);
   const double center_x = in ? in->center_x : 0.5 * (field.width - 1);
   const double center_y = in ? in->center_y : 0.5 * (field.height - 1);
   // v = turn x y + tilt (1 + y^2) - roll x, in focal lengths; then again without what lies far

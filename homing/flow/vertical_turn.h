@@ -16,7 +16,7 @@ struct VerticalTurn {
   double variance = 1;
 };
 
-// Of one camera; without intrinsics a field of view of 60 degrees is assumed.
+// Of one camera; without intrinsics its focal length is UsualFocal.
 VerticalTurn ReadVerticalTurn(const FlowField& field, const Camera& camera);
 // Of both. A camera without flow does not contribute.
 VerticalTurn ReadVerticalTurn(const ObservedFlow& flow, const std::array<Camera, 2>& cameras);

@@ -139,7 +139,7 @@ void Localizer::ReportPose(std::span<const JourneyRef> journeys, const ObservedF
     report_heading();
   }
   if (result.turn && !options_.cameras[0].intrinsics) {
-    *result.turn *= PathPoseFilter::UsualFocal(options_.cameras[0].width);
+    *result.turn *= UsualFocal(options_.cameras[0].width);
   }
 }
 

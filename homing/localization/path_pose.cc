@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <span>
 #include <vector>
 
@@ -38,9 +37,9 @@ constexpr double kMostTurn = 0.5;
 // Steps tried either way.
 constexpr std::int64_t kSteps = 10;
 // Log likelihood of a unit of profile distance. The pose is corrected each time that the robot has
-// driven kFullWeight: views that are nearer to each other repeat the same evidence.
+// driven kCorrectionSpacing: views nearer to each other repeat the same evidence.
 constexpr double kPerDistance = 1.0 / 60;
-constexpr double kFullWeight = 0.10;
+constexpr double kCorrectionSpacing = 0.10;
 // A motion below this, or below this share of the turn, shows no depth. The first offset is
 // reported after kDrivenAtStart.
 constexpr double kLeastDriven = 0.003;
@@ -84,10 +83,6 @@ void PathPoseFilter::StartAtOffset(double offset) { pose_.offset = offset; }
 
 PathPose PathPoseFilter::deviation() const {
   return {std::sqrt(offset_variance_), std::sqrt(heading_variance_)};
-}
-
-double PathPoseFilter::UsualFocal(int width) {
-  return 0.5 * width / std::tan(std::numbers::pi / 6);
 }
 
 double PathPoseFilter::FocalOf(std::size_t camera, int width) const {
@@ -213,7 +208,7 @@ ObservedFlow PathPoseFilter::Straighten(const ObservedFlow& flow) const {
 void PathPoseFilter::Correct(const JourneyMap& map, std::int64_t step, const ObservedFlow& flow) {
   if (std::abs(driven_) < std::max(kLeastDriven, kLeastOfTurn * std::abs(turned_))) return;
   uncorrected_ += std::abs(driven_);
-  if (uncorrected_ < kFullWeight) return;
+  if (uncorrected_ < kCorrectionSpacing) return;
   uncorrected_ = 0;
   Tried tried;
   const double offset_step =

@@ -35,8 +35,6 @@ class PathPoseFilter {
     cameras_ = cameras;
     has_motion_ = false;
   }
-  // The focal length assumed for an unknown camera: a field of view of 60 degrees. Pixels.
-  static double UsualFocal(int width);
   // Starts beside the path.
   void StartAtOffset(double offset);
 

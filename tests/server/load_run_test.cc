@@ -80,11 +80,13 @@ TEST_F(LoadRunTest, ObservationsStayInOrderWhenTheyComeFast) {
   load_.localize = true;
   load_.robots = 8;
   load_.rate = 1000;
-  load_.seconds = 1;
+  load_.seconds = 2;
+  // A sanitizer's build on a busy machine.
+  load_.grace_seconds = 300;
   const auto result = Run();
   ASSERT_THAT(result, IsOk());
   EXPECT_THAT(result->counts.status, IsOk());
-  EXPECT_EQ(result->counts.answered, 8'000);
+  EXPECT_EQ(result->counts.answered, 16'000);
 }
 
 // More than one frame of HTTP/2, and more than its first window.
