@@ -35,7 +35,7 @@ class EchoStream final
     : public server::BidiStream<v1::RecordJourneyRequest, v1::RecordJourneyResponse> {
  public:
   EchoStream(server::ServiceCore* core, grpc::CallbackServerContext* context)
-      : BidiStream(core, context, server::Rpc::kRecordJourney) {}
+      : BidiStream(core, context, server::Rpc::kRecordJourney, &core->store_writes) {}
 
  protected:
   absl::Status Handle(const v1::RecordJourneyRequest& request) override {
