@@ -2,9 +2,9 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "homing/flow/motion.h"
 
@@ -15,13 +15,32 @@ namespace {
 constexpr double kFirstNoisePx = 1.0;
 constexpr double kLeastNoisePx = 0.1;
 
+// Midpoint and vertical flow of a vector, focal lengths from the middle.
+struct Point {
+  double x = 0;
+  double y = 0;
+  double flow = 0;
+};
+
+std::vector<Point> PointsOf(const FlowField& field, const Camera& camera, double focal) {
+  const auto& in = camera.intrinsics;
+  const double center_x = in ? in->center_x : 0.5 * (field.width - 1);
+  const double center_y = in ? in->center_y : 0.5 * (field.height - 1);
+  const double per_focal = 1 / focal;
+  std::vector<Point> points;
+  points.reserve(field.vectors.size());
+  for (const FlowVector& v : field.vectors) {
+    points.push_back({(v.MidX() - center_x) * per_focal, (v.MidY() - center_y) * per_focal,
+                      v.FlowY() * per_focal});
+  }
+  return points;
+}
+
 }  // namespace
 
 VerticalTurn ReadVerticalTurn(const FlowField& field, const Camera& camera) {
-  const auto& in = camera.intrinsics;
-  const double focal = in ? in->focal_x : UsualFocal(field.width);
-  const double center_x = in ? in->center_x : 0.5 * (field.width - 1);
-  const double center_y = in ? in->center_y : 0.5 * (field.height - 1);
+  const double focal = camera.intrinsics ? camera.intrinsics->focal_x : UsualFocal(field.width);
+  const std::vector<Point> points = PointsOf(field, camera, focal);
   // v = turn x y + tilt (1 + y^2) - roll x, in focal lengths; then again without what lies far
   // off.
   Eigen::Vector3d fit = Eigen::Vector3d::Zero();
@@ -31,22 +50,22 @@ VerticalTurn ReadVerticalTurn(const FlowField& field, const Camera& camera) {
     Eigen::Vector3d right = Eigen::Vector3d::Zero();
     double squares = 0;
     std::size_t used = 0;
-    for (const FlowVector& v : field.vectors) {
-      const double x = (v.MidX() - center_x) / focal, y = (v.MidY() - center_y) / focal;
-      const Eigen::Vector3d row(x * y, 1 + y * y, -x);
-      const double error = v.FlowY() / focal - row.dot(fit);
+    for (const Point& point : points) {
+      const Eigen::Vector3d row(point.x * point.y, 1 + point.y * point.y, -point.x);
+      const double error = point.flow - row.dot(fit);
       if (!(std::abs(error) < 3 * noise)) continue;
       normal += row * row.transpose();
-      right += row * (v.FlowY() / focal);
+      right += row * point.flow;
       squares += error * error;
       ++used;
     }
     if (used < kMinVectors) return {};
-    fit = normal.ldlt().solve(right);
+    const Eigen::LDLT<Eigen::Matrix3d> factors(normal);
+    fit = factors.solve(right);
     if (pass > 0)
       noise = std::max(kLeastNoisePx / focal, std::sqrt(squares / static_cast<double>(used)));
     if (pass == 2) {
-      const double variance = noise * noise * normal.inverse()(0, 0);
+      const double variance = noise * noise * factors.solve(Eigen::Vector3d::UnitX())[0];
       if (variance > 0 && std::isfinite(fit[0])) return {fit[0], variance};
     }
   }

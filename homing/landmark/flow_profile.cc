@@ -4,7 +4,9 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <limits>
+#include <span>
 
 #include "homing/base/vector_clones.h"
 
@@ -41,47 +43,92 @@ struct CellSums {
   std::array<float, FlowProfile::kCells> weight{};
   // Sums of weight times log2 of the flow.
   std::array<float, FlowProfile::kCells> log_flow{};
-  float vectors = 0;
-  float all_log_flow = 0;
-
-  // `x`, `y` in 0..1 of the image.
-  void Add(float x, float y, float value) {
-    const float column = x * kColumns - 0.5F;
-    const float row = y * kRows - 0.5F;
-    const float left = std::floor(column);
-    const float top = std::floor(row);
-    const float right_weight = column - left;
-    const float bottom_weight = row - top;
-    const int first = static_cast<int>(left);
-    const int above = static_cast<int>(top);
-    const auto cell_of = [](int r, int c) {
-      return static_cast<std::size_t>(std::clamp(r, 0, kRows - 1) * kColumns +
-                                      std::clamp(c, 0, kColumns - 1));
-    };
-    const auto add = [&](std::size_t cell, float w) {
-      weight[cell] += w;
-      log_flow[cell] += w * value;
-    };
-    add(cell_of(above, first), (1 - right_weight) * (1 - bottom_weight));
-    add(cell_of(above, first + 1), right_weight * (1 - bottom_weight));
-    add(cell_of(above + 1, first), (1 - right_weight) * bottom_weight);
-    add(cell_of(above + 1, first + 1), right_weight * bottom_weight);
-    vectors += 1;
-    all_log_flow += value;
-  }
 };
 
-std::uint8_t CountCode(float fraction) {
-  const float code =
-      std::round(static_cast<float>(FlowProfile::kCountPerRoot) * std::sqrt(fraction));
-  return static_cast<std::uint8_t>(std::min(code, static_cast<float>(FlowProfile::kMaxCode)));
-}
+class CellAdder {
+ public:
+  // `x`, `y` in 0..1 of the image; `value`: log2 of the flow.
+  void Add(float x, float y, float value) {
+    // Both are at least -0.5, so that the cast rounds down.
+    const float column = x * kColumns + 0.5F;
+    const float row = y * kRows + 0.5F;
+    const auto left = static_cast<int>(column);
+    const auto top = static_cast<int>(row);
+    const float right = column - static_cast<float>(left);
+    const float bottom = row - static_cast<float>(top);
+    const Four across = {1 - right, (1 - right) * value, right, right * value};
+    float* const above = &sums_[static_cast<std::size_t>(2 * (top * kWidth + left))];
+    AddTo(above, (1 - bottom) * across);
+    AddTo(above + 2 * kWidth, bottom * across);
+    vectors_ += 1;
+    all_log_flow_ += value;
+  }
+  // The sums of each cell. Vectors outside the outermost cells' middles count in these cells alone.
+  CellSums Sums() const {
+    CellSums result;
+    for (int row = 0; row < kRows + 2; ++row) {
+      for (int column = 0; column < kColumns + 2; ++column) {
+        const auto from = static_cast<std::size_t>(2 * (row * kWidth + column));
+        const auto to = static_cast<std::size_t>(std::clamp(row - 1, 0, kRows - 1) * kColumns +
+                                                 std::clamp(column - 1, 0, kColumns - 1));
+        result.weight[to] += sums_[from];
+        result.log_flow[to] += sums_[from + 1];
+      }
+    }
+    return result;
+  }
+  float vectors() const { return vectors_; }
+  float all_log_flow() const { return all_log_flow_; }
 
-std::uint8_t ParallaxCode(float octaves) {
-  const float code =
-      FlowProfile::kMeanParallax + std::round(FlowProfile::kParallaxPerOctave * octaves);
-  return static_cast<std::uint8_t>(
-      std::clamp(code, 1.0F, static_cast<float>(FlowProfile::kMaxCode)));
+ private:
+  // Two neighbouring cells, of each its weight and its log flow.
+  using Four __attribute__((vector_size(16))) = float;
+  // With a margin of one cell around the image.
+  static constexpr int kWidth = kColumns + 2;
+
+  static void AddTo(float* sums, Four more) {
+    Four four;
+    std::memcpy(&four, sums, sizeof(four));
+    four += more;
+    std::memcpy(sums, &four, sizeof(four));
+  }
+
+  std::array<float, static_cast<std::size_t>(2 * kWidth * (kRows + 2))> sums_{};
+  float vectors_ = 0;
+  float all_log_flow_ = 0;
+};
+
+// What turns the sums into codes.
+struct CodeScale {
+  // Part of the vectors for a unit of weight.
+  float per_weight = 1;
+  float mean_log_flow = 0;
+};
+
+HOMING_VECTOR_CLONES
+void CodesOf(const CellSums& sums, const CodeScale& scale, std::uint8_t* __restrict cells) {
+  constexpr float kMost = FlowProfile::kMaxCode;
+  std::array<std::int32_t, FlowProfile::kCells> counts{};
+  for (std::size_t cell = 0; cell < counts.size(); ++cell) {
+    const float root = std::sqrt(sums.weight[cell] * scale.per_weight);
+    const float code = static_cast<float>(FlowProfile::kCountPerRoot) * root + 0.5F;
+    counts[cell] = static_cast<std::int32_t>(code < kMost ? code : kMost);
+  }
+  std::array<std::int32_t, FlowProfile::kCells / 2> parallaxes{};
+  for (std::size_t pair = 0; pair < parallaxes.size(); ++pair) {
+    const float weight = sums.weight[2 * pair] + sums.weight[2 * pair + 1];
+    const float log_sum = sums.log_flow[2 * pair] + sums.log_flow[2 * pair + 1];
+    const float octaves =
+        log_sum / (weight > kLeastWeight ? weight : kLeastWeight) - scale.mean_log_flow;
+    const float code =
+        FlowProfile::kMeanParallax + FlowProfile::kParallaxPerOctave * octaves + 0.5F;
+    const float least = code > 1 ? code : 1;
+    const auto clamped = static_cast<std::int32_t>(least < kMost ? least : kMost);
+    parallaxes[pair] = weight > kLeastWeight ? clamped : 0;
+  }
+  for (std::size_t cell = 0; cell < counts.size(); ++cell) {
+    cells[cell] = static_cast<std::uint8_t>(parallaxes[cell / 2] << 4 | counts[cell]);
+  }
 }
 
 // The midpoints of the vectors in the magnified image, and their lengths there.
@@ -111,7 +158,10 @@ void Magnify(const MagnifiedView& view, std::size_t size, float* __restrict x, f
 
 }  // namespace
 
-ProfileMaker::ProfileMaker(const FlowField& field) : odometer_(ReadOdometer(field)) {
+ProfileMaker::ProfileMaker(const FlowField& field) : ProfileMaker(field, ReadOdometer(field)) {}
+
+ProfileMaker::ProfileMaker(const FlowField& field, const OdometerReading& odometer)
+    : odometer_(odometer) {
   const double middle_x = 0.5 * (field.width - 1), middle_y = 0.5 * (field.height - 1);
   for (auto* of : {&x_, &y_, &log_flow_}) of->reserve(field.vectors.size());
   float sum = 0;
@@ -126,36 +176,36 @@ ProfileMaker::ProfileMaker(const FlowField& field) : odometer_(ReadOdometer(fiel
   mean_log_flow_ = x_.empty() ? 0 : sum / static_cast<float>(x_.size());
 }
 
-FlowProfile ProfileMaker::Make(double magnification) const {
-  std::vector<float> x = x_, y = y_, log_flow = log_flow_;
-  if (magnification != 1) {
+FlowProfile ProfileMaker::Make(double magnification, double shift) const {
+  CellAdder sums;
+  const float middle_x = 0.5F + static_cast<float>(shift);
+  const auto add = [&](std::span<const float> x, std::span<const float> y,
+                       std::span<const float> log_flow) {
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      const float at_x = x[i] + middle_x, at_y = y[i] + 0.5F;
+      if (at_x >= 0 && at_x < 1 && at_y >= 0 && at_y < 1) sums.Add(at_x, at_y, log_flow[i]);
+    }
+  };
+  if (magnification == 1) {
+    add(x_, y_, log_flow_);
+  } else {
+    std::vector<float> x = x_, y = y_, log_flow = log_flow_;
     Magnify({static_cast<float>(magnification), mean_log_flow_}, x.size(), x.data(), y.data(),
             log_flow.data());
-  }
-  CellSums sums;
-  for (std::size_t i = 0; i < x.size(); ++i) {
-    const float at_x = x[i] + 0.5F, at_y = y[i] + 0.5F;
-    if (at_x >= 0 && at_x < 1 && at_y >= 0 && at_y < 1) sums.Add(at_x, at_y, log_flow[i]);
+    add(x, y, log_flow);
   }
   FlowProfile profile;
-  if (sums.vectors == 0) {
+  if (sums.vectors() == 0) {
     return profile;
   }
   profile.odometer = odometer_;
-  const float mean = sums.all_log_flow / sums.vectors;
-  // Part of this image that the magnified one fills.
-  const auto filled = static_cast<float>(std::min(1.0, magnification * magnification));
-  const float per_vector =
-      filled / std::sqrt(sums.vectors * static_cast<float>(FlowProfile::kUsualCount));
-  for (std::size_t cell = 0; cell < FlowProfile::kCells; cell += 2) {
-    const float weight = sums.weight[cell] + sums.weight[cell + 1];
-    const float log_sum = sums.log_flow[cell] + sums.log_flow[cell + 1];
-    const int parallax = weight > kLeastWeight ? ParallaxCode(log_sum / weight - mean) : 0;
-    for (const std::size_t at : {cell, cell + 1}) {
-      profile.cells[at] =
-          static_cast<std::uint8_t>(parallax << 4 | CountCode(sums.weight[at] * per_vector));
-    }
-  }
+  // Part of this image that the changed one fills.
+  const auto filled =
+      static_cast<float>(std::min(1.0, magnification * magnification) * (1 - std::abs(shift)));
+  const CodeScale scale = {
+      filled / std::sqrt(sums.vectors() * static_cast<float>(FlowProfile::kUsualCount)),
+      sums.all_log_flow() / sums.vectors()};
+  CodesOf(sums.Sums(), scale, profile.cells.data());
   return profile;
 }
 

@@ -46,13 +46,16 @@ class ProfileMaker {
  public:
   // Leaves out vectors that are not finite.
   explicit ProfileMaker(const FlowField& field);
+  // The same for a field whose odometer reading is known.
+  ProfileMaker(const FlowField& field, const OdometerReading& odometer);
 
   // The profile of the vectors whose midpoints lie in the image; all zero if there are none.
   // `magnification` > 0: the view of the same camera from so much nearer that objects with the mean
   // flow look larger by this factor (about the middle of the image). Nearer objects change more,
   // farther ones less. A magnification below 1 fills only a part of the image with that part of
-  // the vectors. The odometer reading is the same at any magnification.
-  FlowProfile Make(double magnification = 1) const;
+  // the vectors. `shift`: then moves the image to the right by so many image widths, as a turn of
+  // the camera to the left does. The odometer reading is that of the unchanged image.
+  FlowProfile Make(double magnification = 1, double shift = 0) const;
   // Number of vectors.
   std::size_t size() const { return x_.size(); }
   const OdometerReading& odometer() const { return odometer_; }

@@ -64,6 +64,12 @@ std::optional<double> OdometerReading::turn() const {
   return turn_code / kTurnPerRad;
 }
 
+std::optional<std::int16_t> ReadMedianX(const FlowField& field) {
+  const Motions motions = MotionsOf(field);
+  if (motions.x.size() < OdometerReading::kLeastVectors) return std::nullopt;
+  return SignedCode(Median(motions.x));
+}
+
 OdometerReading ReadOdometer(const FlowField& field) {
   const Motions motions = MotionsOf(field);
   const std::size_t count = motions.x.size();

@@ -45,6 +45,8 @@ struct OdometerReading {
 
 // No value for fewer than kLeastVectors finite vectors.
 OdometerReading ReadOdometer(const FlowField& field);
+// Its median_x alone.
+std::optional<std::int16_t> ReadMedianX(const FlowField& field);
 
 }  // namespace homing
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -34,6 +35,8 @@ constexpr double kMostOffset = 0.6;
 constexpr double kMostHeading = 0.8;
 // Largest turn between two steps, rad: a reading above it is an error.
 constexpr double kMostTurn = 0.5;
+// A pose with a prior below e^-6 of the best is not compared.
+constexpr double kMostSurprise = 6;
 // Steps tried either way.
 constexpr std::int64_t kSteps = 10;
 // Log likelihood of a unit of profile distance. The pose is corrected each time that the robot has
@@ -69,7 +72,9 @@ struct PathPoseFilter::Tried {
   static constexpr int kCount = 2 * kTries + 1;
   std::array<double, kCount> offsets{};
   std::array<double, kCount> headings{};
-  // By heading and offset: the least over the steps.
+  // By heading and offset: minus the log prior, and the least distance over the steps; infinite
+  // where the pose is not compared.
+  std::array<std::array<double, kCount>, kCount> surprises{};
   std::array<std::array<double, kCount>, kCount> distances{};
 };
 
@@ -101,12 +106,12 @@ bool PathPoseFilter::Predict(const JourneyMap& map, std::int64_t step, const Obs
     const Side side = RouteSide(camera, travel_);
     const auto stored = map.profiles(side);
     if (!field || stored.empty()) return false;
-    const OdometerReading seen = ReadOdometer(*field);
+    const std::optional<std::int16_t> seen = ReadMedianX(*field);
     const OdometerReading& of_step = stored[static_cast<std::size_t>(step)].odometer;
-    if (!seen.has_value() || !of_step.has_value()) return false;
+    if (!seen || !of_step.has_value()) return false;
     const double per_focal =
         1 / (OdometerReading::kSignedPerPx * FocalOf(At(camera), field->width));
-    now[At(side)] = seen.median_x * per_focal;
+    now[At(side)] = *seen * per_focal;
     then[At(side)] = of_step.median_x * per_focal;
   }
   const double advance = then[1] - then[0];
@@ -174,19 +179,23 @@ bool PathPoseFilter::TurnAlone(const ObservedFlow& flow) {
 
 // A turn to the left moves what is seen to higher x, in both cameras.
 FlowField PathPoseFilter::Turned(const FlowField& field, std::size_t camera, double heading) const {
-  const double focal = FocalOf(camera, field.width);
+  const auto focal = static_cast<float>(FocalOf(camera, field.width));
   const auto& intrinsics = cameras_[camera].intrinsics;
-  const double center_x = intrinsics ? intrinsics->center_x : 0.5 * (field.width - 1);
-  const double center_y = intrinsics ? intrinsics->center_y : 0.5 * (field.height - 1);
-  const auto turn = [&](float& x, float& y, double c, double s) {
-    const double ray = (x - center_x) / focal;
-    const double depth = std::max(0.1, c + s * ray);
-    x = static_cast<float>(center_x + focal * (c * ray - s) / depth);
-    y = static_cast<float>(center_y + (y - center_y) / depth);
+  const auto center_x =
+      static_cast<float>(intrinsics ? intrinsics->center_x : 0.5 * (field.width - 1));
+  const auto center_y =
+      static_cast<float>(intrinsics ? intrinsics->center_y : 0.5 * (field.height - 1));
+  const auto turn = [&](float& x, float& y, float c, float s) {
+    const float ray = (x - center_x) / focal;
+    const float per_depth = 1 / std::max(0.1F, c + s * ray);
+    x = center_x + focal * (c * ray - s) * per_depth;
+    y = center_y + (y - center_y) * per_depth;
   };
   FlowField result = field;
-  const double c = std::cos(heading), s = std::sin(heading);
-  const double end_c = std::cos(heading + turned_), end_s = std::sin(heading + turned_);
+  const auto cosine = [](double angle) { return static_cast<float>(std::cos(angle)); };
+  const auto sine = [](double angle) { return static_cast<float>(std::sin(angle)); };
+  const float c = cosine(heading), s = sine(heading);
+  const float end_c = cosine(heading + turned_), end_s = sine(heading + turned_);
   for (FlowVector& v : result.vectors) {
     turn(v.start_x, v.start_y, c, s);
     turn(v.end_x, v.end_y, end_c, end_s);
@@ -210,6 +219,16 @@ void PathPoseFilter::Correct(const JourneyMap& map, std::int64_t step, const Obs
   uncorrected_ += std::abs(driven_);
   if (uncorrected_ < kCorrectionSpacing) return;
   uncorrected_ = 0;
+  Tried tried = PosesToTry();
+  const std::int64_t first = std::max<std::int64_t>(0, step - kSteps);
+  const std::int64_t end = std::min(map.step_count(), step + kSteps + 1);
+  for (std::size_t h = 0; h < tried.headings.size(); ++h) {
+    CompareAtHeading(map, first, end, flow, h, tried);
+  }
+  Fit(tried);
+}
+
+PathPoseFilter::Tried PathPoseFilter::PosesToTry() const {
   Tried tried;
   const double offset_step =
       std::clamp(std::sqrt(offset_variance_), kLeastOffsetStep, kMostOffsetStep);
@@ -221,48 +240,62 @@ void PathPoseFilter::Correct(const JourneyMap& map, std::int64_t step, const Obs
         std::clamp(pose_.offset + (i - kTries) * offset_step, -kMostOffset, kMostOffset);
     tried.headings[at] = pose_.heading + (i - kTries) * heading_step;
   }
-  const std::int64_t first = std::max<std::int64_t>(0, step - kSteps);
-  const std::int64_t end = std::min(map.step_count(), step + kSteps + 1);
+  const double determinant =
+      std::max(1e-12, offset_variance_ * heading_variance_ - covariance_ * covariance_);
+  for (std::size_t h = 0; h < tried.headings.size(); ++h) {
+    for (std::size_t o = 0; o < tried.offsets.size(); ++o) {
+      const double of = tried.offsets[o] - pose_.offset, he = tried.headings[h] - pose_.heading;
+      tried.surprises[h][o] =
+          0.5 *
+          (of * of * heading_variance_ - 2 * of * he * covariance_ + he * he * offset_variance_) /
+          determinant;
+    }
+  }
+  return tried;
+}
+
+void PathPoseFilter::CompareAtHeading(const JourneyMap& map, std::int64_t first, std::int64_t end,
+                                      const ObservedFlow& flow, std::size_t heading,
+                                      Tried& tried) const {
+  std::vector<std::size_t> offsets;
+  tried.distances[heading].fill(std::numeric_limits<double>::infinity());
+  for (std::size_t o = 0; o < tried.offsets.size(); ++o) {
+    if (tried.surprises[heading][o] <= kMostSurprise) offsets.push_back(o);
+  }
+  if (offsets.empty()) return;
   const auto steps = static_cast<std::size_t>(end - first);
   std::vector<std::uint16_t> distances(steps);
   std::array<std::vector<double>, Tried::kCount> sums;
-  for (std::size_t h = 0; h < tried.headings.size(); ++h) {
-    for (auto& sum : sums) sum.assign(steps, 0);
-    for (const Side camera : {Side::kLeft, Side::kRight}) {
-      const auto stored =
-          map.profiles(RouteSide(camera, travel_)).subspan(static_cast<std::size_t>(first), steps);
-      const ProfileMaker seen(
-          Turned(*flow.fields[At(camera)], At(camera), tried.headings[h] - turned_));
-      for (std::size_t o = 0; o < tried.offsets.size(); ++o) {
-        const double nearer = camera == Side::kLeft ? tried.offsets[o] : -tried.offsets[o];
-        const FlowProfile profile = seen.Make(1 - nearer);
-        const CellMask covered = CoveredCells(1 - nearer);
-        ProfileDistances(profile, stored, covered, distances);
-        const double share = ShareOf(covered);
-        for (std::size_t i = 0; i < steps; ++i) sums[o][i] += distances[i] / share;
-      }
-    }
-    for (std::size_t o = 0; o < tried.offsets.size(); ++o) {
-      tried.distances[h][o] = *std::ranges::min_element(sums[o]);
+  for (auto& sum : sums) sum.assign(steps, 0);
+  for (const Side camera : {Side::kLeft, Side::kRight}) {
+    const auto stored =
+        map.profiles(RouteSide(camera, travel_)).subspan(static_cast<std::size_t>(first), steps);
+    const ProfileMaker seen(
+        Turned(*flow.fields[At(camera)], At(camera), tried.headings[heading] - turned_),
+        OdometerReading{});
+    for (const std::size_t o : offsets) {
+      const double nearer = camera == Side::kLeft ? tried.offsets[o] : -tried.offsets[o];
+      const FlowProfile profile = seen.Make(1 - nearer);
+      const CellMask covered = CoveredCells(1 - nearer);
+      ProfileDistances(profile, stored, covered, distances);
+      const double share = ShareOf(covered);
+      for (std::size_t i = 0; i < steps; ++i) sums[o][i] += distances[i] / share;
     }
   }
-  Fit(tried);
+  for (const std::size_t o : offsets) {
+    tried.distances[heading][o] = *std::ranges::min_element(sums[o]);
+  }
 }
 
-// The posterior's moments over the tried poses.
 void PathPoseFilter::Fit(const Tried& tried) {
   double least = tried.distances[0][0];
   for (const auto& row : tried.distances) least = std::min(least, *std::ranges::min_element(row));
-  const double determinant =
-      std::max(1e-12, offset_variance_ * heading_variance_ - covariance_ * covariance_);
   double sum = 0, mean_o = 0, mean_h = 0, oo = 0, hh = 0, oh = 0;
   for (std::size_t h = 0; h < tried.headings.size(); ++h) {
     for (std::size_t o = 0; o < tried.offsets.size(); ++o) {
       const double of = tried.offsets[o] - pose_.offset, he = tried.headings[h] - pose_.heading;
-      const double prior =
-          (of * of * heading_variance_ - 2 * of * he * covariance_ + he * he * offset_variance_) /
-          determinant;
-      const double weight = std::exp(-0.5 * prior - kPerDistance * (tried.distances[h][o] - least));
+      const double weight =
+          std::exp(-tried.surprises[h][o] - kPerDistance * (tried.distances[h][o] - least));
       sum += weight;
       mean_o += weight * of;
       mean_h += weight * he;

@@ -80,8 +80,13 @@ class PathPoseFilter {
   // Focal length of a camera whose images have this width, pixels.
   double FocalOf(std::size_t camera, int width) const;
   FlowField Turned(const FlowField& field, std::size_t camera, double heading) const;
-  // Profile distances of each tried pose over the tried steps, by camera.
+  // Poses around the believed one, and how well the images fit each.
   struct Tried;
+  Tried PosesToTry() const;
+  // Fills in the distances of the poses of this heading to the steps from `first` until `end`.
+  void CompareAtHeading(const JourneyMap& map, std::int64_t first, std::int64_t end,
+                        const ObservedFlow& flow, std::size_t heading, Tried& tried) const;
+  // The posterior's moments over the tried poses.
   void Fit(const Tried& tried);
 
   Travel travel_;

@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <random>
 #include <vector>
 
 namespace homing {
@@ -96,6 +98,59 @@ TEST(FlowProfileTest, MagnificationMovesMidpointsFromTheMiddle) {
   EXPECT_GT(twice.count_code(CellAt(11, 4)) + twice.count_code(CellAt(12, 4)), 0);
   EXPECT_EQ(twice.count_code(CellAt(9, 4)), 0);
   EXPECT_EQ(twice.count_code(CellAt(15, 4)), 0);
+}
+
+TEST(FlowProfileTest, AShiftMovesTheImageToTheRight) {
+  const FlowField field = FieldOf({VectorAt(52.5F, 72, 2), VectorAt(236, 72, 2)});
+  const FlowProfile shifted = ProfileMaker(field).Make(1, 2.0 / FlowProfile::kColumns);
+  EXPECT_GT(shifted.count_code(CellAt(5, 4)), 0);
+  EXPECT_EQ(shifted.count_code(CellAt(3, 4)), 0);
+  // The other vector has left the image.
+  for (int row = 0; row < FlowProfile::kRows; ++row) {
+    EXPECT_EQ(shifted.count_code(CellAt(15, row)), 0);
+  }
+}
+
+// The codes as the header states them, one vector after another.
+std::vector<double> PlainCounts(const FlowField& field) {
+  std::vector<double> weights(FlowProfile::kCells);
+  for (const FlowVector& v : field.vectors) {
+    const double x = (v.MidX() + 0.5) / field.width * FlowProfile::kColumns - 0.5;
+    const double y = (v.MidY() + 0.5) / field.height * FlowProfile::kRows - 0.5;
+    for (const int column : {0, 1}) {
+      for (const int row : {0, 1}) {
+        const double left = std::floor(x), top = std::floor(y);
+        const double weight =
+            (column == 0 ? 1 - (x - left) : x - left) * (row == 0 ? 1 - (y - top) : y - top);
+        const int c = std::clamp(static_cast<int>(left) + column, 0, FlowProfile::kColumns - 1);
+        const int r = std::clamp(static_cast<int>(top) + row, 0, FlowProfile::kRows - 1);
+        weights[static_cast<std::size_t>(CellAt(c, r))] += weight;
+      }
+    }
+  }
+  const double usual =
+      std::sqrt(static_cast<double>(field.vectors.size()) * FlowProfile::kUsualCount);
+  for (double& weight : weights) {
+    weight = std::min<double>(FlowProfile::kCountPerRoot * std::sqrt(weight / usual),
+                              FlowProfile::kMaxCode);
+  }
+  return weights;
+}
+
+TEST(FlowProfileTest, IsAsThePlainReference) {
+  std::mt19937_64 engine(5);
+  std::uniform_real_distribution<float> x(0, 239), y(0, 159), length(0.5F, 20);
+  for (int round = 0; round < 20; ++round) {
+    FlowField field = FieldOf({});
+    for (int i = 0; i < 20 + 20 * round; ++i) {
+      field.vectors.push_back(VectorAt(x(engine), y(engine), length(engine)));
+    }
+    const FlowProfile profile = MakeFlowProfile(field);
+    const std::vector<double> plain = PlainCounts(field);
+    for (int cell = 0; cell < FlowProfile::kCells; ++cell) {
+      EXPECT_NEAR(profile.count_code(cell), plain[static_cast<std::size_t>(cell)], 0.501) << cell;
+    }
+  }
 }
 
 }  // namespace
