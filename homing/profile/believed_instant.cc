@@ -7,14 +7,15 @@
 namespace homing {
 
 std::size_t ProfileLikelihood::LikeliestOffset() const {
-  if (!compared_[0] || !compared_[1]) return kNoOffset;
+  // A camera that turns does not change what it saw: its view is compared unturned.
+  if (seeing_ == Seeing::kOneSide) return kNoOffset;
   // The belief may have moved to an offset that was not tried at this instant.
   std::size_t likeliest = kNoOffset;
   double most = -1;
   for (std::size_t offset = 0; offset < kViews; ++offset) {
-    if (!chosen_[offset] || anywhere_[offset] <= most) continue;
+    if (!chosen_[offset] || anywhere()[offset] <= most) continue;
     likeliest = offset;
-    most = anywhere_[offset];
+    most = anywhere()[offset];
   }
   return likeliest;
 }
@@ -29,7 +30,7 @@ BelievedInstant ProfileLikelihood::Believed(std::size_t journey, std::int64_t fi
     if (!compared_[side]) continue;
     const std::size_t view = ViewOf(side, offset);
     const auto seen = std::ranges::find(views_[side], view, &SeenView::view);
-    instant.seen[side] = {.profile = seen->profile, .covered = &CoveredBy(view)};
+    instant.seen[side] = {.profile = seen->profile, .covered = &CoveredBy(seeing_, view)};
     const std::vector<std::uint16_t>& distances = distances_[side][view][journey];
     if (distances.empty()) continue;
     const std::int64_t end = std::min(last + 1, held + std::ssize(distances));

@@ -15,14 +15,16 @@ double FromMiddle(int cell, int cells) { return std::abs((cell + 0.5) / cells - 
 
 }  // namespace
 
-CellMask CoveredCells(double magnification) {
+CellMask CoveredCells(double magnification, double shift) {
   CellMask covered{};
   for (int row = 0; row < FlowProfile::kRows; ++row) {
     for (int column = 0; column < FlowProfile::kColumns; ++column) {
       const double outmost =
           std::max(FromMiddle(row, FlowProfile::kRows), FromMiddle(column, FlowProfile::kColumns));
       const int cell = row * FlowProfile::kColumns + column;
-      covered[static_cast<std::size_t>(cell)] = outmost <= magnification ? 255 : 0;
+      const double before = (column + 0.5) / FlowProfile::kColumns - shift;
+      const bool is_covered = outmost <= magnification && before >= 0 && before <= 1;
+      covered[static_cast<std::size_t>(cell)] = is_covered ? 255 : 0;
     }
   }
   return covered;

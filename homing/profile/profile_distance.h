@@ -13,8 +13,8 @@ namespace homing {
 // 255 for the cells that count, else 0.
 using CellMask = std::array<std::uint8_t, FlowProfile::kCells>;
 
-// The cells that an image magnified by `magnification` fills.
-CellMask CoveredCells(double magnification);
+// The cells that an image fills after the changes of ProfileMaker::Make.
+CellMask CoveredCells(double magnification, double shift = 0);
 
 // One view of the seen profile, and its distance to each of the stored profiles: over the covered
 // cells, the sum of 4 |gain of the count code| + 3 |loss of it| + where both have vectors,

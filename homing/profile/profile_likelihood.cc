@@ -9,7 +9,7 @@ namespace {
 
 // Stored profiles that are sampled to estimate the distance to different places; at most twice as
 // many are used.
-constexpr std::int64_t kSamples = 256;
+constexpr std::int64_t kSamples = 128;
 // A less probable offset is tried only now and then, once the place is known.
 constexpr double kLeastOffset = 0.05;
 
@@ -53,8 +53,6 @@ Sample SampleOf(std::span<const JourneyRef> journeys, std::span<const RouteScale
 
 }  // namespace
 
-ProfileLikelihood::ProfileLikelihood() : anywhere_(PathOffsets::Prior()) {}
-
 bool ProfileLikelihood::CanCompare(std::span<const JourneyRef> journeys, const SeenProfiles& seen) {
   return std::ranges::any_of(journeys, [&seen](const JourneyRef& journey) {
     return (IsEnough(seen[0]) && HasProfiles(journey, 0)) ||
@@ -65,10 +63,10 @@ bool ProfileLikelihood::CanCompare(std::span<const JourneyRef> journeys, const S
 void ProfileLikelihood::Grow(std::span<const JourneyRef> journeys) {
   routes_.resize(journeys.size());
   measured_.resize(journeys.size());
-  offsets_.resize(journeys.size());
+  for (Belief& belief : beliefs_) belief.offsets.resize(journeys.size());
   for (std::size_t i = 0; i < journeys.size(); ++i) {
     const JourneyMap& map = *journeys[i].map;
-    offsets_[i].Grow(map.step_count());
+    for (Belief& belief : beliefs_) belief.offsets[i].Grow(map.step_count());
     const std::shared_ptr<const RouteScale> scale = MeasuredScale(map);
     if (scale != measured_[i]) {
       measured_[i] = scale;
@@ -94,6 +92,7 @@ void ProfileLikelihood::Compute(std::span<const JourneyRef> journeys, const Seen
           return HasProfiles(journey, side);
         });
   }
+  seeing_ = compared_[0] && compared_[1] ? Seeing::kBothSides : Seeing::kOneSide;
   Choose(journeys, predicted);
   for (std::size_t side = 0; side < seen.size(); ++side) {
     if (compared_[side]) {
@@ -103,26 +102,20 @@ void ProfileLikelihood::Compute(std::span<const JourneyRef> journeys, const Seen
   Weigh(predicted);
 }
 
-// Chooses the offsets to try. An offset of the robot makes one side larger and the other smaller; a
-// single camera cannot distinguish this from other changes, so its view is compared unchanged.
-// While every step is possible, all offsets are tried; later the probable ones and one other in
-// turn.
+// Chooses the offsets to try. While every step is possible, all offsets are tried; later the
+// probable ones and one other in turn.
 void ProfileLikelihood::Choose(std::span<const JourneyRef> journeys,
                                std::span<const StepMass> predicted) {
   bool all = true;
   for (std::size_t i = 0; i < journeys.size(); ++i) {
     all = all && std::ssize(predicted[i].mass) == journeys[i].map->step_count();
   }
-  const std::ptrdiff_t likeliest = std::ranges::max_element(anywhere_) - anywhere_.begin();
+  const std::ptrdiff_t likeliest = std::ranges::max_element(anywhere()) - anywhere().begin();
   const auto in_turn = static_cast<std::size_t>(instants_) % kViews;
-  if (!compared_[0] || !compared_[1]) {
-    chosen_ = {};
-    chosen_[kNoOffset] = true;
-    return;
-  }
   for (std::size_t offset = 0; offset < kViews; ++offset) {
-    chosen_[offset] = all || anywhere_[offset] >= kLeastOffset || offset == in_turn ||
-                      std::ptrdiff_t(offset) == likeliest;
+    chosen_[offset] = all || anywhere()[offset] >= kLeastOffset || offset == in_turn ||
+                      std::ptrdiff_t(offset) == likeliest ||
+                      (offset == kNoOffset && seeing_ == Seeing::kOneSide);
   }
 }
 
@@ -132,7 +125,7 @@ std::vector<ProfileLikelihood::SeenView> ProfileLikelihood::ViewsOf(
   for (std::size_t offset = 0; offset < kViews; ++offset) {
     if (!chosen_[offset]) continue;
     const std::size_t view = ViewOf(side, offset);
-    views.push_back({view, seen.Make(MagnificationOf(view))});
+    views.push_back({view, MakeView(seen, seeing_, view)});
   }
   return views;
 }
@@ -147,7 +140,7 @@ void ProfileLikelihood::Measure(std::span<const JourneyRef> journeys, Side side,
   const auto [sample, biases] = SampleOf(journeys, routes_, side);
   std::vector<std::uint16_t> of_sample(views.size() * sample.size());
   for (std::size_t i = 0; i < views.size(); ++i) {
-    compared.push_back({views[i].profile, CoveredBy(views[i].view),
+    compared.push_back({views[i].profile, CoveredBy(seeing_, views[i].view),
                         std::span(of_sample).subspan(i * sample.size(), sample.size())});
   }
   ProfileDistances(compared, std::span(sample));
@@ -169,7 +162,7 @@ void ProfileLikelihood::Measure(std::span<const JourneyRef> journeys, Side side,
     for (const auto& [view, profile] : views) {
       std::vector<std::uint16_t>& distances = distances_[at][view][i];
       distances.resize(stored.size());
-      compared.push_back({profile, CoveredBy(view), distances});
+      compared.push_back({profile, CoveredBy(seeing_, view), distances});
     }
     ProfileDistances(compared, stored);
   }
@@ -189,7 +182,7 @@ void ProfileLikelihood::Multiply(std::size_t side, std::size_t view, std::size_t
 
 float ProfileLikelihood::WeightOf(std::size_t offset, std::size_t journey,
                                   std::size_t stretch) const {
-  const OffsetValues& believed = offsets_[journey].of(stretch);
+  const OffsetValues& believed = belief().offsets[journey].of(stretch);
   double tried = 0;
   for (std::size_t i = 0; i < kViews; ++i) {
     tried += chosen_[i] ? believed[i] : 0;
@@ -241,13 +234,13 @@ void ProfileLikelihood::Weigh(std::span<const StepMass> predicted) {
 // In each stretch, an offset gains if the believed steps fit under it.
 void ProfileLikelihood::Learn() {
   OffsetValues mass{};
-  for (std::size_t i = 0; i < offsets_.size(); ++i) {
-    const OffsetValues of_journey = offsets_[i].Learn(first_stretch_[i], fits_[i], chosen_);
+  for (std::size_t i = 0; i < belief().offsets.size(); ++i) {
+    const OffsetValues of_journey = belief().offsets[i].Learn(first_stretch_[i], fits_[i], chosen_);
     for (std::size_t offset = 0; offset < kViews; ++offset) {
       mass[offset] += of_journey[offset];
     }
   }
-  anywhere_ = PathOffsets::Mix(mass);
+  belief().anywhere = PathOffsets::Mix(mass);
   ++instants_;
 }
 
@@ -258,13 +251,13 @@ void ProfileLikelihood::StartAtOffset(double offset) {
     if (std::abs(kPathOffsets[i] - offset) < std::abs(kPathOffsets[nearest] - offset)) nearest = i;
   }
   start[nearest] = 1;
-  anywhere_ = PathOffsets::Mix(start);
+  beliefs_[0].anywhere = PathOffsets::Mix(start);
 }
 
 double ProfileLikelihood::MeanOffset() const {
   double mean = 0;
   for (std::size_t offset = 0; offset < kViews; ++offset) {
-    mean += anywhere_[offset] * kPathOffsets[offset];
+    mean += beliefs_[0].anywhere[offset] * kPathOffsets[offset];
   }
   return mean;
 }

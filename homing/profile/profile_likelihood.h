@@ -23,8 +23,6 @@ namespace homing {
 // Estimates the offset from the outbound path at the same time. Not thread-safe.
 class ProfileLikelihood {
  public:
-  ProfileLikelihood();
-
   // True if some journey has profiles of a side that the robot sees with enough vectors.
   static bool CanCompare(std::span<const JourneyRef> journeys, const SeenProfiles& seen);
 
@@ -64,6 +62,17 @@ class ProfileLikelihood {
     FlowProfile profile;
   };
 
+  // Of the offsets, or of the headings.
+  struct Belief {
+    // By journey.
+    std::vector<PathOffsets> offsets;
+    // Wherever the robot is.
+    OffsetValues anywhere = PathOffsets::Prior();
+  };
+
+  Belief& belief() { return beliefs_[static_cast<std::size_t>(seeing_)]; }
+  const Belief& belief() const { return beliefs_[static_cast<std::size_t>(seeing_)]; }
+  const OffsetValues& anywhere() const { return belief().anywhere; }
   std::size_t LikeliestOffset() const;
   void Choose(std::span<const JourneyRef> journeys, std::span<const StepMass> predicted);
   void Measure(std::span<const JourneyRef> journeys, Side side, const ProfileMaker& seen,
@@ -84,14 +93,12 @@ class ProfileLikelihood {
   std::array<std::array<Distances, kViews>, 2> distances_;
   std::array<std::array<DistanceScale, kViews>, 2> scales_;
   std::array<bool, 2> compared_{};
+  Seeing seeing_ = Seeing::kBothSides;
   // Offsets that are tried at this instant.
   std::array<bool, kViews> chosen_{};
   // Instants compared before this one.
   std::int64_t instants_ = 0;
-  // By journey.
-  std::vector<PathOffsets> offsets_;
-  // Probability of each offset, wherever the robot is.
-  OffsetValues anywhere_;
+  std::array<Belief, 2> beliefs_;
   // Predicted mass times factor, by journey and by stretch that holds a predicted step.
   std::vector<std::vector<OffsetValues>> fits_;
   // By journey: the first of these stretches.

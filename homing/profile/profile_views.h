@@ -1,6 +1,8 @@
-// The present views as the outbound robot would have seen them from other distances: a robot that
-// drives further left or right sees one side of the route larger and the other smaller. Offsets
-// have the unit "scene distance", the mean distance of the objects that the camera sees.
+// The present views as the outbound robot would have seen them. A robot that drives further left or
+// right sees one side of the route larger and the other smaller: two cameras show its offset. One
+// camera cannot tell an offset from other changes; it shows the heading, which moves the image
+// sideways. Offsets have the unit "scene distance", the mean distance of the objects that the
+// camera sees.
 #ifndef HOMING_PROFILE_PROFILE_VIEWS_H_
 #define HOMING_PROFILE_PROFILE_VIEWS_H_
 
@@ -27,8 +29,16 @@ constexpr std::size_t ViewOf(std::size_t side, std::size_t offset) {
   return side == 0 ? kPathOffsets.size() - 1 - offset : offset;
 }
 
+// Headings that one camera tries instead, by the same indices: shift of the image to the right,
+// image widths.
+constexpr double ShiftOf(std::size_t view) { return 0.1 * kPathOffsets[view]; }
+
+// How many cameras are compared.
+enum class Seeing { kBothSides, kOneSide };
+
+FlowProfile MakeView(const ProfileMaker& seen, Seeing seeing, std::size_t view);
 // The cells of a view that the camera's image covers.
-const CellMask& CoveredBy(std::size_t view);
+const CellMask& CoveredBy(Seeing seeing, std::size_t view);
 
 // Indexed by side of the ROUTE; none where no camera looks.
 using SeenProfiles = std::array<std::optional<ProfileMaker>, 2>;

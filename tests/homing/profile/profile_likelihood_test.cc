@@ -57,12 +57,48 @@ TEST_F(ProfileLikelihoodTest, TheStepItselfIsTheMostLikely) {
 TEST_F(ProfileLikelihoodTest, OneCameraLearnsNoOffset) {
   predicted_.mass.assign(kMapSteps, 0);
   predicted_.mass[20] = 1;
-  const float at_first = See(Nearer(fields_[20], 1.35F))[20];
   for (int i = 0; i < 10; ++i) {
     See(Nearer(fields_[20], 1.35F));
     likelihood_.Learn();
   }
-  EXPECT_FLOAT_EQ(See(Nearer(fields_[20], 1.35F))[20], at_first);
+  EXPECT_NEAR(likelihood_.MeanOffset(), 0, 1e-9);
+}
+
+// The field that the camera sees after a turn to the left.
+FlowField TurnedLeft(FlowField field, double widths) {
+  const auto shift = static_cast<float>(widths * field.width);
+  for (FlowVector& v : field.vectors) {
+    v.start_x += shift;
+    v.end_x += shift;
+  }
+  return field;
+}
+
+TEST_F(ProfileLikelihoodTest, OneCameraLearnsTheHeading) {
+  predicted_.mass.assign(kMapSteps, 0);
+  predicted_.mass[20] = 1;
+  for (const double turned : {-0.035, 0.035}) {
+    likelihood_ = {};
+    const FlowField seen = TurnedLeft(fields_[20], turned);
+    const float at_first = See(seen)[20];
+    for (int i = 0; i < 10; ++i) {
+      See(seen);
+      likelihood_.Learn();
+    }
+    // Evidence is bounded: there is little room above the first.
+    EXPECT_GT(See(seen)[20], 1.1F * at_first) << turned;
+    EXPECT_NEAR(likelihood_.MeanOffset(), 0, 1e-9);
+  }
+}
+
+TEST_F(ProfileLikelihoodTest, AnInstantOfOneCameraLeavesTheOffsetOfBoth) {
+  const double offset = 0.23;
+  likelihood_.StartAtOffset(offset);
+  const double before = likelihood_.MeanOffset();
+  EXPECT_GT(before, 0.1);
+  See(fields_[20]);
+  likelihood_.Learn();
+  EXPECT_DOUBLE_EQ(likelihood_.MeanOffset(), before);
 }
 
 TEST_F(ProfileLikelihoodTest, WhatIsLearntAtOnePlaceIsNotExpectedAtAFarOne) {
