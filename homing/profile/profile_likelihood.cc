@@ -9,7 +9,7 @@ namespace {
 
 // Stored profiles that are sampled to estimate the distance to different places; at most twice as
 // many are used.
-constexpr std::int64_t kSamples = 128;
+constexpr std::int64_t kSamples = 256;
 // A less probable offset is tried only now and then, once the place is known.
 constexpr double kLeastOffset = 0.05;
 
