@@ -247,8 +247,10 @@ void HomingServer::Drain() {
     health->SetServingStatus(false);
   }
   state_->core->streams.Drain();
-  state_->console.reset();
+  if (state_->console) state_->console->Stop();
+  // Also ends the calls that the console waits for.
   state_->server->Shutdown(std::chrono::system_clock::now() + state_->drain_time);
+  state_->console.reset();
   state_->server->Wait();
   state_->core->streams.AwaitNone();
   state_->server.reset();
