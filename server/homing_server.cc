@@ -233,7 +233,7 @@ absl::StatusOr<std::unique_ptr<HomingServer>> HomingServer::Start(
 
 void HomingServer::Reload() {
   if (state_->housekeeping) {
-    state_->housekeeping->Reload();
+    state_->housekeeping->Reload(AccessControl::Reading::kAtOnce);
   }
 }
 
