@@ -147,7 +147,9 @@ absl::StatusOr<LandmarkQueryResult> MatchLandmarks(JourneyCatalog* catalog,
   for (const std::shared_ptr<LiveJourney>& journey : selection.journeys) {
     refs.push_back({&journey->name(), &journey->map()});
   }
-  for (const Match& match : Matcher().Find(refs, result.seen, query.match)) {
+  const auto matches = Matcher().Find(refs, result.seen, query.match, limits.cancellation);
+  HOMING_RETURN_IF_ERROR(CheckAwaited(limits.cancellation));
+  for (const Match& match : matches) {
     result.matches.push_back({*refs[static_cast<std::size_t>(match.journey)].name, match});
   }
   return result;

@@ -7,6 +7,7 @@
 #include <future>
 
 #include "homing/image/frame.h"
+#include "server/service/journey_archive.h"
 #include "tests/server/server_fixture.h"
 #include "tests/support/status_matchers.h"
 
@@ -162,6 +163,52 @@ TEST_F(LimitsTest, FilesBeingImportedShareTheMemory) {
   ExpectExhausted(Import("robots/r/journeys/copy", file, 1 << 20), "IMPORT_MEMORY");
   EXPECT_THAT(Import("robots/r/journeys/copy", file.substr(0, 1 << 20), 1 << 20),
               GrpcStatusIs(grpc::StatusCode::INVALID_ARGUMENT, HasSubstr("journey file")));
+}
+
+// A journey file of some 9 MiB.
+std::string LargeFile() {
+  JourneyMap map((JourneySettings()));
+  for (std::int64_t i = 0; i < 200'000; ++i) {
+    JourneyStep step{.step = i, .motion = Motion::kMoving, .fingerprints = {}, .profiles = {}};
+    for (const Side side : {Side::kLeft, Side::kRight}) {
+      for (const float x : {100.5F, 220.5F}) {
+        const auto landmark = static_cast<std::int32_t>(step.fingerprints.size());
+        step.fingerprints.push_back({side, {x, 80.25F, 40, landmark}, 0.25});
+      }
+    }
+    EXPECT_THAT(map.Append(step), IsOk());
+  }
+  return EncodeJourney({}, map).value();
+}
+
+TEST_F(LimitsTest, FilesBeingExportedShareTheMemory) {
+  const std::string file = LargeFile();
+  options_.limits.memory_quota = static_cast<std::int64_t>(file.size() * 3 / 2);
+  Restart();
+  ASSERT_THAT(Import("robots/r/journeys/large", file, 1 << 20), IsGrpcOk());
+  v1::ExportJourneyRequest request;
+  request.set_name("robots/r/journeys/large");
+  v1::ExportJourneyResponse response;
+  // Reads a first chunk, and no more.
+  grpc::ClientContext slow_context;
+  const auto slow = journeys_->ExportJourney(&slow_context, request);
+  ASSERT_TRUE(slow->Read(&response));
+  const auto read_all = [&] {
+    grpc::ClientContext context;
+    const auto stream = journeys_->ExportJourney(&context, request);
+    while (stream->Read(&response)) {
+    }
+    return stream->Finish();
+  };
+  ExpectExhausted(read_all(), "EXPORT_MEMORY");
+  slow_context.TryCancel();
+  while (slow->Read(&response)) {
+  }
+  EXPECT_EQ(slow->Finish().error_code(), grpc::StatusCode::CANCELLED);
+  // The server sees the cancellation a moment later; a test that hangs is ended by the runner.
+  while (!read_all().ok()) {
+  }
+  EXPECT_EQ(Export("robots/r/journeys/large"), file);
 }
 
 // The answer to GET of `path` at `address`.
