@@ -26,7 +26,9 @@ absl::StatusOr<JourneySettings> DecodeSettings(const v1::JourneySettings& messag
   HOMING_ASSIGN_OR_RETURN(JourneySettings settings,
                           wire::FromProto(message, "journey.settings", JourneySettings()));
   const auto model = models->Get(settings.deviation_model_name);
-  HOMING_RETURN_IF_ERROR(Within("journey.settings.deviation_model", model.status()));
+  constexpr char kModelField[] = "journey.settings.deviation_model";
+  HOMING_RETURN_IF_ERROR(FieldOf(model.status()) ? Renamed(model.status(), "name", kModelField)
+                                                 : Within(kModelField, model.status()));
   settings.deviation_model = model->model;
   HOMING_RETURN_IF_ERROR(Within("journey.settings", Validate(settings)));
   return settings;
