@@ -12,9 +12,9 @@
 #include "homing/v1/homing_service.grpc.pb.h"
 #include "homing/v1/journey_service.grpc.pb.h"
 #include "proto/wire/observation_conversion.h"
-#include "server/service/journey_archive.h"
 #include "tests/faults/checks.h"
 #include "tests/faults/server_under_test.h"
+#include "tests/support/journey_file.h"
 #include "tests/support/route.h"
 #include "tests/support/temporary_folder.h"
 
@@ -40,23 +40,6 @@ double PeakMib(pid_t process) {
 
 void ForgetPeak(pid_t process) {
   std::ofstream(absl::StrCat("/proc/", process, "/clear_refs")) << 5;
-}
-
-// A journey file: `per_side` fingerprints a side and step, all at about the same place.
-std::string FileOf(std::int64_t steps, int per_side) {
-  JourneyMap map((JourneySettings()));
-  for (std::int64_t i = 0; i < steps; ++i) {
-    JourneyStep step{.step = i, .motion = Motion::kMoving, .fingerprints = {}, .profiles = {}};
-    for (const Side side : {Side::kLeft, Side::kRight}) {
-      for (int n = 0; n < per_side; ++n) {
-        const auto landmark = static_cast<std::int32_t>(step.fingerprints.size());
-        const float x = 100.5F + static_cast<float>(i % 97) / 20;
-        step.fingerprints.push_back({side, {x, 80.25F, 40, landmark}, 0.25});
-      }
-    }
-    if (!map.Append(step).ok()) return "";
-  }
-  return server::EncodeJourney({}, map).value_or("");
 }
 
 class Bombs {
@@ -190,8 +173,8 @@ void CheckMemory(const Programs& programs, Figures* figures) {
   const std::string png = folder.File("flat.png");
   if (!client::WritePng(png, flat).ok()) return figures->Failed("bombs", "no image");
   Bombs bombs(server, figures);
-  if (!bombs.Import(kSteps, FileOf(2'000'000, 0)) ||
-      !bombs.Import(kLandmarks, FileOf(200'000, 2))) {
+  if (!bombs.Import(kSteps, test::JourneyFile(2'000'000, 0)) ||
+      !bombs.Import(kLandmarks, test::JourneyFile(200'000, 2))) {
     return figures->Failed("bombs", "no journeys");
   }
   bombs.Report("bomb_imports_mib");

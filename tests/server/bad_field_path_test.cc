@@ -8,6 +8,9 @@
 
 #include <functional>
 #include <limits>
+#include <memory>
+#include <string>
+#include <vector>
 
 #include "absl/strings/str_replace.h"
 #include "absl/strings/str_split.h"
@@ -21,7 +24,7 @@ namespace pb = google::protobuf;
 
 // "a.b[0].c" names fields from message to message.
 bool IsPath(const pb::Descriptor* type, const std::string& path) {
-  for (const std::string part : absl::StrSplit(path, '.')) {
+  for (const std::string& part : std::vector<std::string>(absl::StrSplit(path, '.'))) {
     if (type == nullptr) return false;
     const std::size_t bracket = part.find('[');
     const pb::FieldDescriptor* field = type->FindFieldByName(part.substr(0, bracket));

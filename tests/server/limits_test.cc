@@ -7,8 +7,8 @@
 #include <future>
 
 #include "homing/image/frame.h"
-#include "server/service/journey_archive.h"
 #include "tests/server/server_fixture.h"
+#include "tests/support/journey_file.h"
 #include "tests/support/status_matchers.h"
 
 namespace homing::server {
@@ -165,24 +165,8 @@ TEST_F(LimitsTest, FilesBeingImportedShareTheMemory) {
               GrpcStatusIs(grpc::StatusCode::INVALID_ARGUMENT, HasSubstr("journey file")));
 }
 
-// A journey file of some 9 MiB.
-std::string LargeFile() {
-  JourneyMap map((JourneySettings()));
-  for (std::int64_t i = 0; i < 200'000; ++i) {
-    JourneyStep step{.step = i, .motion = Motion::kMoving, .fingerprints = {}, .profiles = {}};
-    for (const Side side : {Side::kLeft, Side::kRight}) {
-      for (const float x : {100.5F, 220.5F}) {
-        const auto landmark = static_cast<std::int32_t>(step.fingerprints.size());
-        step.fingerprints.push_back({side, {x, 80.25F, 40, landmark}, 0.25});
-      }
-    }
-    EXPECT_THAT(map.Append(step), IsOk());
-  }
-  return EncodeJourney({}, map).value();
-}
-
 TEST_F(LimitsTest, FilesBeingExportedShareTheMemory) {
-  const std::string file = LargeFile();
+  const std::string file = test::JourneyFile(200'000, 2);
   options_.limits.memory_quota = static_cast<std::int64_t>(file.size() * 3 / 2);
   Restart();
   ASSERT_THAT(Import("robots/r/journeys/large", file, 1 << 20), IsGrpcOk());
