@@ -4,6 +4,7 @@
 #define STORAGE_ROW_COLUMNS_H_
 
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <utility>
 
@@ -27,6 +28,11 @@ namespace homing::storage {
 // -1, which no count has, for a number beyond 32 bits.
 inline std::int32_t CountOf(std::int64_t value) {
   return std::in_range<std::int32_t>(value) ? static_cast<std::int32_t>(value) : -1;
+}
+
+// A step's stored number of its frame: one that is negative is damage, and not kNextSequence.
+inline std::int64_t StoredSequence(std::int64_t value) {
+  return value < 0 ? std::numeric_limits<std::int64_t>::min() : value;
 }
 
 // HOMING_JOURNEY_COLUMNS are the first columns. DATA_LOSS.

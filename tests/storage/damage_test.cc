@@ -89,6 +89,7 @@ TEST_F(DamageTest, RowsThatContradictEachOtherAreDataLoss) {
       "UPDATE steps SET right1_count = 0 WHERE step = 3",
       "UPDATE steps SET right1_x = 1e300 WHERE step = 3",
       "UPDATE steps SET left_profile = x'010203' WHERE step = 3",
+      "UPDATE steps SET sequence = -1 WHERE step = 3",
       "UPDATE journeys SET step_count = 5",
       "UPDATE journeys SET step_count = -1",
       "UPDATE journeys SET step_count = 1000000000000",
