@@ -60,11 +60,8 @@ absl::Status CheckNumbers(const JourneyMap& map, const JourneyRecord& record) {
                ? absl::OkStatus()
                : Contradiction(record, absl::StrCat(what, " is ", value));
   };
-  const std::int64_t steps = map.step_count();
-  // Each step took an observation. The number of a frame is that of its observation.
-  const std::int64_t least =
-      steps > 0 && record.input == InputKind::kFrames ? map.sequence(steps - 1) + 1 : steps;
-  HOMING_RETURN_IF_ERROR(check("next_sequence", record.next_sequence, least));
+  // Each step took an observation.
+  HOMING_RETURN_IF_ERROR(check("next_sequence", record.next_sequence, map.step_count()));
   HOMING_RETURN_IF_ERROR(check("resend_from", record.resend_from, 0, record.next_sequence));
   HOMING_RETURN_IF_ERROR(check("create_time_ns", record.create_time_ns, 0));
   HOMING_RETURN_IF_ERROR(check("start_time_ns", record.start_time_ns, 0));
