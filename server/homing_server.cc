@@ -57,6 +57,7 @@ CoreOptions CoreOptionsOf(const ServerOptions& options, std::function<TimePoint(
   core.decode.max_pixels = options.max_pixels;
   core.wire.max_vectors = options.max_vectors;
   core.catalog.cache_bytes = options.map_cache;
+  core.catalog.belief_bytes = options.limits.memory_quota;
   core.all_journeys_index = options.all_journeys_index;
   core.limits = options.limits;
   if (clock) {

@@ -34,6 +34,7 @@ constexpr std::pair<const char*, const char*> kReasons[] = {
     {"RESOURCE_EXHAUSTED", "RATE"},
     {"RESOURCE_EXHAUSTED", "IMPORT_MEMORY"},
     {"RESOURCE_EXHAUSTED", "EXPORT_MEMORY"},
+    {"RESOURCE_EXHAUSTED", "LOCALIZE_MEMORY"},
     {"RESOURCE_EXHAUSTED", "MAP_CACHE"},
     {"RESOURCE_EXHAUSTED", "BUSY"},
     {"OUT_OF_RANGE", "SEQUENCE_GAP"},

@@ -166,7 +166,7 @@ TEST_F(LimitsTest, FilesBeingImportedShareTheMemory) {
 }
 
 TEST_F(LimitsTest, FilesBeingExportedShareTheMemory) {
-  const std::string file = test::JourneyFile(200'000, 2);
+  const std::string file = test::JourneyFile(300'000, 2);
   options_.limits.memory_quota = static_cast<std::int64_t>(file.size() * 3 / 2);
   Restart();
   ASSERT_THAT(Import("robots/r/journeys/large", file, 1 << 20), IsGrpcOk());
@@ -193,6 +193,27 @@ TEST_F(LimitsTest, FilesBeingExportedShareTheMemory) {
   while (!read_all().ok()) {
   }
   EXPECT_EQ(Export("robots/r/journeys/large"), file);
+}
+
+TEST_F(LimitsTest, StreamsThatLocaliseShareTheMemory) {
+  options_.limits.memory_quota = 16 << 20;
+  Restart();
+  constexpr char kLong[] = "robots/r/journeys/long";
+  ASSERT_THAT(Import(kLong, test::JourneyFile(70'000, 0), 1 << 20), IsGrpcOk());
+  Localizing first(homing_.get(), LocalizeOn(kLong));
+  first.Localize(test::FlowAt(0));
+  Localizing second(homing_.get(), LocalizeOn(kLong));
+  second.Send(test::FlowAt(0));
+  ExpectExhausted(second.AwaitEnd(), "LOCALIZE_MEMORY");
+  EXPECT_THAT(first.Close(), IsGrpcOk());
+  // The server frees the stream a moment later; a test that hangs is ended by the runner.
+  const auto again = [&] {
+    Localizing stream(homing_.get(), LocalizeOn(kLong));
+    stream.Send(test::FlowAt(0));
+    return stream.Close();
+  };
+  while (!again().ok()) {
+  }
 }
 
 // The answer to GET of `path` at `address`.
