@@ -34,8 +34,6 @@ constexpr double kKnownPlace = 0.99;
 constexpr double kLandmarkWeight = 1;
 // The robot may have been carried away while the link was down.
 constexpr double kMostPrior = 0.95;
-// Of an offset relative to the distance of what is seen; real ones are below 1.
-constexpr double kMostPathOffset = 1000;
 constexpr std::int16_t kNoRatio = SpeedEvidence::kNoRatio;
 
 }  // namespace
@@ -64,8 +62,6 @@ absl::Status PositionFilter::Start(std::span<const JourneyRef> journeys,
   }
   HOMING_RETURN_IF_ERROR(CheckRange("prior.step", prior.step, std::int64_t{0}, steps - 1));
   HOMING_RETURN_IF_ERROR(CheckRange("prior.probability", prior.probability, 0.0, 1.0));
-  HOMING_RETURN_IF_ERROR(CheckRange("prior.path_offset", prior.path_offset.value_or(0),
-                                    -kMostPathOffset, kMostPathOffset));
   Grow(journeys);
   const double mass = std::min(prior.probability, kMostPrior);
   for (RouteBelief& belief : beliefs_) belief.Scale(1 - mass);

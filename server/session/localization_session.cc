@@ -17,6 +17,9 @@ namespace {
 // A belief holds a mass for each step, direction and speed, some sums, and the answer's masses.
 constexpr std::int64_t kBytesAStep = sizeof(float) * (2 * kSpeedCount + 6);
 
+// Of an offset relative to the distance of what is seen; real ones are below 1.
+constexpr double kMostPathOffset = 1000;
+
 // Sets the size of one camera's image. Decodes the frame, since a compressed one may give no size.
 absl::Status MeasureView(const CameraView& view, const DecodeLimits& limits, int* width,
                          int* height) {
@@ -122,6 +125,9 @@ absl::Status LocalizationSession::Start(const Observation& observation) {
 absl::Status LocalizationSession::StartAt(const LocalizationPrior& prior) {
   for (std::size_t i = 0; i < journeys_.size(); ++i) {
     if (journeys_[i]->name() != prior.journey) continue;
+    HOMING_RETURN_IF_ERROR(CheckRange("config.prior.path_offset",
+                                      prior.start.path_offset.value_or(0), -kMostPathOffset,
+                                      kMostPathOffset));
     PositionPrior start = prior.start;
     start.journey = static_cast<int>(i);
     return Within("config", localizer_->Start(RefsOf(journeys_), start));
