@@ -68,6 +68,10 @@ void AddCoreGauges(const ServerOptions& options, ServiceCore* core) {
                     [core] { return static_cast<double>(core->slots.open()); });
   metrics->AddGauge("homing_import_bytes", "Bytes of files that are being imported",
                     [core] { return static_cast<double>(core->import_bytes.load()); });
+  metrics->AddGauge("homing_belief_bytes", "Bytes of the beliefs of streams that localise",
+                    [core] { return static_cast<double>(core->catalog.beliefs()->used()); });
+  metrics->AddGauge("homing_export_bytes", "Bytes of files that are being exported",
+                    [core] { return static_cast<double>(core->export_bytes.load()); });
   metrics->AddGauge("homing_journeys_deleted", "Journeys deleted by age or quota since the start",
                     [core] { return static_cast<double>(core->quota.deleted()); });
   metrics->AddGauge("homing_robots_lost", "Robots that localise and are off every route",

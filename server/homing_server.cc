@@ -57,6 +57,7 @@ CoreOptions CoreOptionsOf(const ServerOptions& options, std::function<TimePoint(
   core.decode.max_pixels = options.max_pixels;
   core.wire.max_vectors = options.max_vectors;
   core.catalog.cache_bytes = options.map_cache;
+  core.catalog.belief_bytes = options.limits.memory_quota;
   core.all_journeys_index = options.all_journeys_index;
   core.limits = options.limits;
   if (clock) {
@@ -233,7 +234,7 @@ absl::StatusOr<std::unique_ptr<HomingServer>> HomingServer::Start(
 
 void HomingServer::Reload() {
   if (state_->housekeeping) {
-    state_->housekeeping->Reload();
+    state_->housekeeping->Reload(AccessControl::Reading::kAtOnce);
   }
 }
 
@@ -247,8 +248,10 @@ void HomingServer::Drain() {
     health->SetServingStatus(false);
   }
   state_->core->streams.Drain();
-  state_->console.reset();
+  if (state_->console) state_->console->Stop();
+  // Also ends the calls that the console waits for.
   state_->server->Shutdown(std::chrono::system_clock::now() + state_->drain_time);
+  state_->console.reset();
   state_->server->Wait();
   state_->core->streams.AwaitNone();
   state_->server.reset();

@@ -28,7 +28,9 @@ Housekeeping::Housekeeping(ServiceCore* core, std::chrono::seconds reload_every,
       thread_([this] { return Work(); }) {}
 
 std::chrono::milliseconds Housekeeping::Work() {
-  if (round_ > 0 && round_ % reload_every_.count() == 0) Reload();
+  if (round_ > 0 && round_ % reload_every_.count() == 0) {
+    Reload(AccessControl::Reading::kSettled);
+  }
   core_->streams.Tick();
   if (round_ % kDeleteEvery.count() == 0) DeleteExpired();
   if (round_ % kCountEvery.count() == 0) CountJourneys();
@@ -37,8 +39,8 @@ std::chrono::milliseconds Housekeeping::Work() {
   return kRound;
 }
 
-void Housekeeping::Reload() {
-  absl::Status status = core_->access->Reload();
+void Housekeeping::Reload(AccessControl::Reading reading) {
+  absl::Status status = core_->access->Reload(reading);
   if (reload_more_) status.Update(reload_more_());
   if (!status.ok()) {
     spdlog::error("reload failed, keeping the previous configuration: {}",

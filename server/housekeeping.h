@@ -22,7 +22,7 @@ class Housekeeping {
                const CertificateFiles& certificates,
                std::function<absl::Status()> reload_more = nullptr);
   // Reads certificates, tokens and roles again. Thread-safe.
-  void Reload();
+  void Reload(AccessControl::Reading reading);
 
  private:
   // Does all work whose time has come; returns the time until the next round.

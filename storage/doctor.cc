@@ -3,12 +3,15 @@
 #include <algorithm>
 #include <filesystem>
 #include <functional>
+#include <initializer_list>
 #include <memory>
 #include <set>
 #include <utility>
+#include <vector>
 
 #include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
+#include "absl/strings/str_split.h"
 #include "homing/base/status_macros.h"
 #include "storage/connection.h"
 #include "storage/database_url.h"
@@ -32,6 +35,19 @@ constexpr const char* kJourneyNames[] = {
     "SELECT name FROM journeys INDEXED BY sqlite_autoindex_journeys_1 ORDER BY name DESC"};
 constexpr const char* kModelNames[] = {"SELECT name FROM deviation_models ORDER BY name",
                                        "SELECT name FROM deviation_models ORDER BY name DESC"};
+
+// No server makes another name, or finds the journey or model by it.
+absl::Status CheckName(const std::string& name, std::initializer_list<const char*> collections) {
+  const std::vector<std::string> parts = absl::StrSplit(name, '/');
+  std::size_t i = 0;
+  bool fits = parts.size() == 2 * collections.size();
+  for (const char* const collection : collections) {
+    fits = fits && parts[i] == collection && !parts[i + 1].empty();
+    i += 2;
+  }
+  return fits ? absl::OkStatus()
+              : absl::DataLossError(absl::StrCat("store: the name '", name, "' is damaged"));
+}
 
 // Called for each readable item; its status becomes that of the finding.
 struct Savers {
@@ -94,6 +110,7 @@ class Examination {
   void ExamineJourney(const std::string& name) {
     Finding finding{name, 0, absl::OkStatus()};
     finding.status = connection_->Read([&]() -> absl::Status {
+      HOMING_RETURN_IF_ERROR(CheckName(name, {"robots", "journeys"}));
       HOMING_ASSIGN_OR_RETURN(const JourneyRow row, FindJourney(*connection_, name));
       HOMING_ASSIGN_OR_RETURN(const JourneyMap map, ReadMap(*connection_, row));
       finding.step_count = map.step_count();
@@ -105,6 +122,7 @@ class Examination {
   void ExamineModel(const std::string& name) {
     Finding finding{name, 0, absl::OkStatus()};
     finding.status = connection_->Read([&]() -> absl::Status {
+      HOMING_RETURN_IF_ERROR(CheckName(name, {"deviationModels"}));
       HOMING_ASSIGN_OR_RETURN(const StoredModel model, FindModel(*connection_, name));
       return savers_.model(model);
     });

@@ -1,5 +1,6 @@
 #include "storage/map_assembly.h"
 
+#include <limits>
 #include <string>
 
 #include "absl/strings/str_cat.h"
@@ -51,6 +52,22 @@ absl::Status CheckCounts(const JourneyMap& map, const JourneyRecord& record) {
   return check("fingerprints", map.all_fingerprints().size(), record.fingerprint_count);
 }
 
+// Numbers and times that no journey with this map has.
+absl::Status CheckNumbers(const JourneyMap& map, const JourneyRecord& record) {
+  const auto check = [&](const char* what, std::int64_t value, std::int64_t least,
+                         std::int64_t most = std::numeric_limits<std::int64_t>::max()) {
+    return value >= least && value <= most
+               ? absl::OkStatus()
+               : Contradiction(record, absl::StrCat(what, " is ", value));
+  };
+  // Each step took an observation.
+  HOMING_RETURN_IF_ERROR(check("next_sequence", record.next_sequence, map.step_count()));
+  HOMING_RETURN_IF_ERROR(check("resend_from", record.resend_from, 0, record.next_sequence));
+  HOMING_RETURN_IF_ERROR(check("create_time_ns", record.create_time_ns, 0));
+  HOMING_RETURN_IF_ERROR(check("start_time_ns", record.start_time_ns, 0));
+  return check("end_time_ns", record.end_time_ns, 0);
+}
+
 }  // namespace
 
 absl::StatusOr<JourneyMap> AssembleMap(const JourneyRecord& record, const StepReader& next) {
@@ -64,6 +81,7 @@ absl::StatusOr<JourneyMap> AssembleMap(const JourneyRecord& record, const StepRe
   }
   map.ExtendTo(record.step_count);
   HOMING_RETURN_IF_ERROR(CheckCounts(map, record));
+  HOMING_RETURN_IF_ERROR(CheckNumbers(map, record));
   return map;
 }
 

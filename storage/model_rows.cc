@@ -32,7 +32,9 @@ absl::Status InsertModel(Connection& connection, const StoredModel& model) {
 absl::StatusOr<StoredModel> FindModel(Connection& connection, const std::string& name) {
   Query query = connection.Prepare(kFindModel, name);
   if (!query.Next()) return ModelNotFound(name);
-  return ReadModel(query);
+  HOMING_ASSIGN_OR_RETURN(StoredModel model, ReadModel(query));
+  HOMING_RETURN_IF_ERROR(CheckModel(model));
+  return model;
 }
 
 absl::StatusOr<std::vector<StoredModel>> ListModelRows(Connection& connection,

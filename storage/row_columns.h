@@ -4,8 +4,12 @@
 #define STORAGE_ROW_COLUMNS_H_
 
 #include <cstdint>
+#include <limits>
+#include <string>
+#include <utility>
 
 #include "absl/status/statusor.h"
+#include "absl/strings/str_cat.h"
 #include "homing/base/status_macros.h"
 #include "storage/journey_store.h"
 #include "storage/row_words.h"
@@ -20,6 +24,16 @@
   "name, mu, sigma, observations, ks_distance, width, height, training, create_time_ns"
 
 namespace homing::storage {
+
+// -1, which no count has, for a number beyond 32 bits.
+inline std::int32_t CountOf(std::int64_t value) {
+  return std::in_range<std::int32_t>(value) ? static_cast<std::int32_t>(value) : -1;
+}
+
+// A step's stored number of its frame: one that is negative is damage, and not kNextSequence.
+inline std::int64_t StoredSequence(std::int64_t value) {
+  return value < 0 ? std::numeric_limits<std::int64_t>::min() : value;
+}
 
 // HOMING_JOURNEY_COLUMNS are the first columns. DATA_LOSS.
 template <typename Row>
@@ -36,7 +50,7 @@ absl::StatusOr<JourneyRecord> ReadRecord(Row& row) {
   record.start_time_ns = row.Integer(8);
   record.end_time_ns = row.Integer(9);
   record.step_count = row.Integer(10);
-  record.landmark_count = static_cast<std::int32_t>(row.Integer(11));
+  record.landmark_count = CountOf(row.Integer(11));
   record.fingerprint_count = row.Integer(12);
   HOMING_ASSIGN_OR_RETURN(record.settings, JourneySettingsFromJson(row.Text(13)));
   return record;
@@ -49,13 +63,22 @@ absl::StatusOr<StoredModel> ReadModel(Row& row) {
   stored.name = row.Text(0);
   stored.model.mu = row.Real(1);
   stored.model.sigma = row.Real(2);
-  stored.model.observations = static_cast<int>(row.Integer(3));
+  stored.model.observations = CountOf(row.Integer(3));
   stored.model.ks_distance = row.Real(4);
-  stored.model.width = static_cast<int>(row.Integer(5));
-  stored.model.height = static_cast<int>(row.Integer(6));
+  stored.model.width = CountOf(row.Integer(5));
+  stored.model.height = CountOf(row.Integer(6));
   HOMING_ASSIGN_OR_RETURN(stored.training, TrainingOptionsFromJson(row.Text(7)));
   stored.create_time_ns = row.Integer(8);
   return stored;
+}
+
+// DATA_LOSS: a value that no stored model has.
+inline absl::Status CheckModel(const StoredModel& stored) {
+  absl::Status status = Validate(stored.model);
+  if (stored.create_time_ns < 0) status.Update(absl::OutOfRangeError("create_time_ns is negative"));
+  if (status.ok()) return status;
+  return absl::DataLossError(absl::StrCat("store: deviation model '", stored.name,
+                                          "' is damaged: ", std::string(status.message())));
 }
 
 }  // namespace homing::storage

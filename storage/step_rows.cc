@@ -8,6 +8,7 @@
 #include "homing/base/status_macros.h"
 #include "homing/landmark/profile_code.h"
 #include "storage/map_assembly.h"
+#include "storage/row_columns.h"
 #include "storage/step_id.h"
 
 namespace homing::storage {
@@ -119,7 +120,7 @@ absl::StatusOr<JourneyStep> ReadStep(Query& row) {
     HOMING_ASSIGN_OR_RETURN(step.profiles[static_cast<std::size_t>(side)],
                             DecodeProfile(row.Bytes(kFirstProfile + side)));
   }
-  if (!row.IsNull(kSequence)) step.sequence = row.Integer(kSequence);
+  if (!row.IsNull(kSequence)) step.sequence = StoredSequence(row.Integer(kSequence));
   return step;
 }
 

@@ -140,8 +140,9 @@ AnswerBag::AnswerBag(std::ofstream file, const FlowOptions& flow)
       start_ns_(absl::GetCurrentTimeNanos()) {}
 
 absl::StatusOr<std::unique_ptr<AnswerBag>> AnswerBag::Open(const std::string& path,
-                                                           const FlowOptions& flow) {
-  HOMING_ASSIGN_OR_RETURN(std::ofstream file, OpenGrowingFile(path));
+                                                           const FlowOptions& flow,
+                                                           const std::stop_token& stop) {
+  HOMING_ASSIGN_OR_RETURN(std::ofstream file, OpenGrowingFile(path, stop));
   return std::unique_ptr<AnswerBag>(new AnswerBag(std::move(file), flow));
 }
 

@@ -7,6 +7,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <stop_token>
 #include <string>
 
 #include "absl/status/statusor.h"
@@ -24,10 +25,10 @@ namespace homing::client {
 // words. Thread-safe.
 class AnswerBag {
  public:
-  // Replaces the file. `flow` is how flow is computed. INVALID_ARGUMENT: not a regular file;
-  // PERMISSION_DENIED.
+  // Replaces the content. `flow` is how flow is computed. Errors as of OpenGrowingFile.
   static absl::StatusOr<std::unique_ptr<AnswerBag>> Open(const std::string& path,
-                                                         const FlowOptions& flow);
+                                                         const FlowOptions& flow,
+                                                         const std::stop_token& stop = {});
 
   // Passes on the same observations, and keeps their images and flow until their answers. REQUIRES:
   // `inner` and the bag outlive the result.

@@ -1,24 +1,19 @@
 #include "client/command/growing_file.h"
 
 #include <cerrno>
-#include <cstring>
-#include <filesystem>
 
-#include "absl/strings/str_cat.h"
+#include "client/file/output_file.h"
+#include "homing/base/status_macros.h"
 
 namespace homing::client {
 
-absl::StatusOr<std::ofstream> OpenGrowingFile(const std::string& path) {
-  std::error_code error;
-  const auto status = std::filesystem::status(path, error);
-  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
-    return absl::InvalidArgumentError(absl::StrCat(path, " is not a regular file"));
-  }
+absl::StatusOr<std::ofstream> OpenGrowingFile(const std::string& path,
+                                              const std::stop_token& stop) {
+  HOMING_RETURN_IF_ERROR(CheckWritable(path));
+  HOMING_ASSIGN_OR_RETURN(const HeldPipe pipe, AwaitReader(path, stop));
+  errno = 0;
   std::ofstream file(path, std::ios::binary | std::ios::trunc);
-  if (!file) {
-    return absl::PermissionDeniedError(
-        absl::StrCat("cannot write ", path, ": ", std::strerror(errno)));
-  }
+  if (!file) return CannotWrite(path, errno);
   return file;
 }
 

@@ -82,11 +82,11 @@ class AnswerOutputs {
 
   absl::Status Open(const std::optional<FlowOptions>& flow) {
     if (!flags_.csv.empty()) {
-      HOMING_ASSIGN_OR_RETURN(table_, OpenGrowingFile(flags_.csv));
+      HOMING_ASSIGN_OR_RETURN(table_, OpenGrowingFile(flags_.csv, session_.stop));
       *table_ << AnswerTableHead() << std::endl;
     }
     if (!flags_.mcap_out.empty()) {
-      HOMING_ASSIGN_OR_RETURN(bag_, AnswerBag::Open(flags_.mcap_out, *flow));
+      HOMING_ASSIGN_OR_RETURN(bag_, AnswerBag::Open(flags_.mcap_out, *flow, session_.stop));
     }
     return session_.json ? absl::OkStatus() : session_.Print(AnswerHeader());
   }

@@ -47,20 +47,6 @@ absl::Status Replace(const fs::path& path, const fs::file_status& before, const 
   return status;
 }
 
-// Opening a pipe without a reader would block, even when a signal arrives.
-absl::Status AwaitReader(const std::string& path, const std::stop_token& stop) {
-  while (!stop.stop_requested()) {
-    const int pipe = ::open(path.c_str(), O_WRONLY | O_NONBLOCK | O_CLOEXEC);
-    if (pipe >= 0) {
-      ::close(pipe);
-      return absl::OkStatus();
-    }
-    if (errno != ENXIO) return CannotWrite(path, errno);
-    std::this_thread::sleep_for(kReaderCheck);
-  }
-  return absl::CancelledError(absl::StrCat("stopped; nobody reads ", path));
-}
-
 // The administrator could write to it, but its permissions forbid this.
 bool IsReadOnly(const fs::file_status& file) {
   constexpr fs::perms kWritable =
@@ -86,6 +72,23 @@ absl::Status CheckWritable(const std::string& path) {
   return file ? absl::OkStatus() : CannotWrite(path, errno);
 }
 
+// Opening a pipe without a reader would block, even when a signal arrives.
+absl::StatusOr<HeldPipe> AwaitReader(const std::string& path, const std::stop_token& stop) {
+  std::error_code error;
+  if (!fs::is_fifo(path, error)) return HeldPipe();
+  while (!stop.stop_requested()) {
+    const int pipe = ::open(path.c_str(), O_WRONLY | O_NONBLOCK | O_CLOEXEC);
+    if (pipe >= 0) return HeldPipe(pipe);
+    if (errno != ENXIO) return CannotWrite(path, errno);
+    std::this_thread::sleep_for(kReaderCheck);
+  }
+  return absl::CancelledError(absl::StrCat("stopped; nobody reads ", path));
+}
+
+HeldPipe::~HeldPipe() {
+  if (file_ >= 0) ::close(file_);
+}
+
 absl::StatusOr<std::uintmax_t> WriteOutputFile(const std::string& path, const Write& write,
                                                const std::stop_token& stop) {
   std::error_code error;
@@ -98,10 +101,8 @@ absl::StatusOr<std::uintmax_t> WriteOutputFile(const std::string& path, const Wr
   if (fs::is_directory(before)) return CannotWrite(path, EISDIR);
   const bool special = fs::exists(before) && !fs::is_regular_file(before);
   if (IsReadOnly(before)) return CannotWrite(path, EACCES);
-  if (fs::is_fifo(before)) {
-    const absl::Status read = AwaitReader(path, stop);
-    if (!read.ok()) return read;
-  }
+  const absl::StatusOr<HeldPipe> pipe = AwaitReader(path, stop);
+  if (!pipe.ok()) return pipe.status();
   const absl::Status status =
       special ? WriteTo(target.string(), path, write) : Replace(target, before, write);
   if (!status.ok()) return status;

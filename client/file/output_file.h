@@ -7,6 +7,7 @@
 #include <ostream>
 #include <stop_token>
 #include <string>
+#include <utility>
 
 #include "absl/status/statusor.h"
 
@@ -17,6 +18,22 @@ absl::Status CannotWrite(const std::string& path, int error);
 
 // OK: the file can be written. Call it before the work begins; it creates a missing file.
 absl::Status CheckWritable(const std::string& path);
+
+// Holds a pipe open for writing: its reader sees no end until the file is opened and written.
+class HeldPipe {
+ public:
+  HeldPipe() = default;
+  explicit HeldPipe(int file) : file_(file) {}
+  HeldPipe(HeldPipe&& other) noexcept : file_(std::exchange(other.file_, -1)) {}
+  HeldPipe& operator=(HeldPipe&&) = delete;
+  ~HeldPipe();
+
+ private:
+  int file_ = -1;
+};
+
+// Returns once a program reads the pipe `path`, for other files at once. CANCELLED: stopped before.
+absl::StatusOr<HeldPipe> AwaitReader(const std::string& path, const std::stop_token& stop);
 
 // Creates or replaces `path` with the output of `write`; returns its size in bytes. A plain file is
 // replaced when all is written; a link stays a link; devices and pipes are written into (size 0), a

@@ -157,7 +157,7 @@ export function Journey({ name, session }) {
         ['State', stateWord(journey)], ['Quality', qualityOf(journey)], ['Steps', number(journey.stepCount)], ['Landmarks', number(journey.landmarkCount)],
         ['Fingerprints', number(journey.fingerprintCount)], ['Map', described ? bytes(Number(described.mapBytes ?? 0)) : undefined],
         ['Cameras look', directions(described)], ['Created', ago(journey.createTime)],
-        ['Readers', (journey.readers ?? []).join(', ') || 'the owner alone'],
+        ['Readers', (journey.readers ?? []).map((r) => (r === '*' ? 'all robots' : r)).join(', ') || 'the owner alone'],
         ['Places known after', aliasing?.medianSteps ? `${aliasing.medianSteps} steps in half of the places` : undefined],
         ['Indistinct places', aliasing ? percent(aliasing.indistinctShare ?? 0, 1) : undefined]]} />
       {session.role !== 'robot' && session.role !== 'localise-only' && (

@@ -46,7 +46,7 @@ function Login({ done, reason }) {
         <button class="primary">Log in</button>
         {error && <p class="error" role="alert">{error}</p>}
       </form>
-      <p class="dim">An administrator makes a token with</p>
+      <p class="dim">An administrator makes a token with:</p>
       <pre tabindex="0"><code>homing-server token operators/NAME --tokens FILE --out TOKEN</code></pre>
     </main>
   );

@@ -32,7 +32,7 @@ export function Models() {
         <Chart title="Density of deviations (Fig. 1)" x={x} xLabel="deviation, px" yLabel="density, 1/px" series={[{ label: 'density', colour: 'accent', values: x.map((d) => density(d, model)) }]} />
         <Chart title="Similarity P of two means (Fig. 2)" x={x} xLabel="distance δ, px" yLabel="P = 1 − F(δ)" range={() => [0, 1]} series={[{ label: 'P', colour: 'accent', values: x.map((d) => survival(d, model)) }]} />
       </div>
-      {data.length < 2 && <Empty title="No model of your own" command="homing train --help">The built-in model is the paper's. A model of your own camera is trained by:</Empty>}
+      {data.length < 2 && <Empty title="No model of your own" command="homing train --width 640 --height 480 --focal 554">The built-in model is the paper's. A model of your own camera is trained by:</Empty>}
     </>
   );
 }
@@ -80,7 +80,7 @@ export function Match({ name, query }) {
         </div>))}
       {pairs.length > 0 && (
         <div class="scroll" tabindex="0" role="region" aria-label="Pairs of landmarks"><table>
-          <thead><tr><th scope="col">Side</th><th scope="col" class="num">At {a}</th><th scope="col" class="num">At {b}</th><th scope="col" class="num wide">Vectors</th><th scope="col" class="num">δ, px</th><th scope="col" class="num">P</th><th scope="col" class="num">P<sub>T</sub></th></tr></thead>
+          <thead><tr><th scope="col">Side</th><th scope="col" class="num wrap">Landmark at {a}</th><th scope="col" class="num wrap">Landmark at {b}</th><th scope="col" class="num wide">Vectors</th><th scope="col" class="num">δ, px</th><th scope="col" class="num">P</th><th scope="col" class="num">P<sub>T</sub></th></tr></thead>
           <tbody>{pairs.slice(0, 12).map((p) => <tr key={p.l.id + '-' + p.r.id}><td>{p.l.side === 'SIDE_LEFT' ? 'left' : 'right'}</td><td class="num">{p.l.id}</td><td class="num">{p.r.id}</td>
             <td class="num wide">{p.l.count} / {p.r.count}</td><td class="num">{p.delta.toFixed(1)}</td><td class="num">{p.p.toFixed(2)}</td><td class="num">{p.pt >= 0.2 ? <strong>{p.pt.toFixed(2)}</strong> : p.pt.toFixed(2)}</td></tr>)}</tbody>
         </table></div>)}

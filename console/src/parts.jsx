@@ -58,6 +58,8 @@ export const Facts = ({ facts }) => (
 export const colour = (name) => getComputedStyle(document.documentElement).getPropertyValue('--' + name).trim();
 export const themed = () => document.documentElement.dataset.theme + matchMedia('(prefers-color-scheme: dark)').matches;
 
+// A time axis spans at least half a minute, so that its ticks are whole seconds.
+const atLeast30s = (_, min, max) => (min == null ? [min, max] : [Math.min(min, max - 30), max]);
 const clock = (_, times) => times.map((t) => (t % 1 ? '' : new Date(t * 1000).toLocaleTimeString('en-GB')));
 // A uPlot chart; `series` is [{label, colour, values, bars, dash, scale}], all over `x`.
 export function Chart({ title, x, series, xLabel, xRange, yLabel, range, height = 200, time = false, describe }) {
@@ -79,7 +81,7 @@ export function Chart({ title, x, series, xLabel, xRange, yLabel, range, height 
     });
     plot.current = new uPlot({
       width: box.current.clientWidth || 300, height,
-      scales: { x: { time, range: xRange }, y: { range: range ?? undefined } },
+      scales: { x: { time, range: time ? atLeast30s : xRange }, y: { range: range ?? undefined } },
       axes: [{ ...axis(xLabel), size: 30, ...(time && { values: clock, space: 70 }) }, axis(yLabel)],
       legend: { show: series.length > 1 }, cursor: { y: false },
       series: [{ label: xLabel, ...(time && { value: (_, t) => (t == null ? '–' : new Date(t * 1000).toLocaleTimeString('en-GB')) }) }, ...series.map((s) => ({

@@ -55,6 +55,22 @@ inline absl::Status Within(const std::string& holder, const absl::Status& status
   return longer;
 }
 
+// The same error with the field's beginning `from` replaced by `to`: "FROM.REST: ..." becomes
+// "TO.REST: ...". An error about another field, or none, stays. All payloads stay.
+inline absl::Status Renamed(const absl::Status& status, const std::string& from,
+                            const std::string& to) {
+  const std::string field = FieldOf(status).value_or("");
+  const std::string message(status.message());
+  const bool begins = field.compare(0, from.size(), from) == 0 &&
+                      (field.size() == from.size() || field[from.size()] == '.');
+  if (status.ok() || !begins || message.compare(0, from.size(), from) != 0) return status;
+  absl::Status renamed(status.code(), absl::StrCat(to, message.substr(from.size())));
+  status.ForEachPayload(
+      [&](absl::string_view url, const absl::Cord& value) { renamed.SetPayload(url, value); });
+  renamed.SetPayload(kFieldPayload, absl::Cord(absl::StrCat(to, field.substr(from.size()))));
+  return renamed;
+}
+
 }  // namespace homing
 
 #endif  // HOMING_BASE_FIELD_ERROR_H_

@@ -20,6 +20,9 @@ namespace {
 
 // Twice the rounding error of a bound's product in float.
 constexpr float kProductRounding = 1e-6F;
+// Candidates kept before they are computed: 20 MB. Pairs of a query with a low threshold may be far
+// more than the stored fingerprints.
+constexpr std::size_t kMostCandidates = std::size_t{1} << 19;
 // A P_T that some landmarks of a journey mostly reach.
 constexpr double kMuchAlike = 0.5;
 
@@ -75,14 +78,17 @@ const SurvivalBound& Matcher::BoundOf(const DeviationModel& model) {
 }
 
 void Matcher::Clear() {
-  for (const Candidate& candidate : candidates_) known_[candidate.landmark] = {};
+  for (const std::size_t landmark : touched_) known_[landmark] = {};
+  touched_.clear();
   candidates_.clear();
+  matches_.clear();
   landmark_count_ = 0;
 }
 
 // Upper bounds of each pair's P_T: the ratio of counts (eq 15) times the bound of 1 - F (eq 14).
-void Matcher::Scan(int number, const JourneyMap& map, std::int64_t first, std::int64_t last,
-                   const SeenSides& seen, double threshold) {
+void Matcher::Scan(std::span<const JourneyRef> journeys, int number, std::int64_t first,
+                   std::int64_t last, const SeenSides& seen, double threshold) {
+  const JourneyMap& map = *journeys[static_cast<std::size_t>(number)].map;
   const SurvivalBound& bound = BoundOf(map.settings().deviation_model);
   // The distance alone excludes most pairs.
   const float reach = bound.ReachOf(threshold / (1 + 2 * double{kProductRounding}));
@@ -97,7 +103,8 @@ void Matcher::Scan(int number, const JourneyMap& map, std::int64_t first, std::i
   if (known_.size() < landmark_count_) known_.resize(landmark_count_);
   if (last < first) return;
   std::span<const Fingerprint> all(map.fingerprints(first).begin(), map.fingerprints(last).end());
-  while (!all.empty()) {
+  while (!all.empty() && CheckAwaited(cancellation_).ok()) {
+    if (candidates_.size() >= kMostCandidates) Compute(journeys, threshold, 0);
     const std::span<const Fingerprint> tile = all.first(std::min(all.size(), kTile));
     all = all.subspan(tile.size());
     for (const Fingerprint* const near : FindNear(tile, reach)) {
@@ -113,7 +120,10 @@ void Matcher::Scan(int number, const JourneyMap& map, std::int64_t first, std::i
         const std::size_t of = before + static_cast<std::size_t>(stored.landmark);
         candidates_.push_back({&stored, &landmark, number, of, most});
         const float least = ratio * bound.LeastAt(squared) * (1 - kProductRounding);
-        known_[of].least = std::max(known_[of].least, least);
+        KnownLandmark& known = known_[of];
+        if (!known.is_touched) touched_.push_back(of);
+        known.is_touched = true;
+        known.least = std::max(known.least, least);
       }
     }
   }
@@ -142,10 +152,8 @@ std::span<const Fingerprint* const> Matcher::FindNear(std::span<const Fingerprin
 
 float Matcher::LeastOfBest(int most) {
   positive_.clear();
-  for (const Candidate& candidate : candidates_) {
-    KnownLandmark& known = known_[candidate.landmark];
-    if (known.least > 0 && !known.counted) positive_.push_back(known.least);
-    known.counted = true;
+  for (const std::size_t landmark : touched_) {
+    if (known_[landmark].least > 0) positive_.push_back(known_[landmark].least);
   }
   if (std::ssize(positive_) < most) {
     return 0;
@@ -155,9 +163,7 @@ float Matcher::LeastOfBest(int most) {
   return *last;
 }
 
-std::vector<Match> Matcher::Compute(std::span<const JourneyRef> journeys, double threshold,
-                                    float of_best) {
-  std::vector<Match> matches;
+void Matcher::Compute(std::span<const JourneyRef> journeys, double threshold, float of_best) {
   for (const Candidate& candidate : candidates_) {
     KnownLandmark& known = known_[candidate.landmark];
     if (candidate.most < std::max(of_best, known.least)) continue;
@@ -166,10 +172,10 @@ std::vector<Match> Matcher::Compute(std::span<const JourneyRef> journeys, double
         Compare(Of(*candidate.seen), Of(*candidate.stored), map.settings().deviation_model);
     if (similarity.p_t <= 0 || similarity.p_t < threshold) continue;
     if (known.match < 0) {
-      known.match = static_cast<std::int32_t>(matches.size());
-      matches.emplace_back();
+      known.match = static_cast<std::int32_t>(matches_.size());
+      matches_.emplace_back();
     }
-    Match& best = matches[static_cast<std::size_t>(known.match)];
+    Match& best = matches_[static_cast<std::size_t>(known.match)];
     if (similarity.p_t > best.similarity.p_t) {
       best = {.journey = candidate.journey,
               .landmark = candidate.stored->landmark,
@@ -178,20 +184,20 @@ std::vector<Match> Matcher::Compute(std::span<const JourneyRef> journeys, double
               .similarity = similarity};
     }
   }
-  return matches;
+  candidates_.clear();
 }
 
 void Matcher::ScanAll(std::span<const JourneyRef> journeys, const SeenSides& seen,
                       double threshold) {
   Clear();
   for (std::size_t i = 0; i < journeys.size(); ++i) {
-    const JourneyMap& map = *journeys[i].map;
-    Scan(static_cast<int>(i), map, 0, map.step_count() - 1, seen, threshold);
+    Scan(journeys, static_cast<int>(i), 0, journeys[i].map->step_count() - 1, seen, threshold);
   }
 }
 
 std::vector<Match> Matcher::Find(std::span<const JourneyRef> journeys, const SeenSides& seen,
-                                 const MatchOptions& options) {
+                                 const MatchOptions& options, const Cancellation* cancellation) {
+  cancellation_ = cancellation;
   // Scan with a high threshold first; scan fully only if that gives too few matches.
   const double first = std::max(options.threshold, kMuchAlike);
   ScanAll(journeys, seen, first);
@@ -200,7 +206,8 @@ std::vector<Match> Matcher::Find(std::span<const JourneyRef> journeys, const See
     ScanAll(journeys, seen, options.threshold);
     of_best = LeastOfBest(options.max_matches);
   }
-  std::vector<Match> matches = Compute(journeys, options.threshold, of_best);
+  Compute(journeys, options.threshold, of_best);
+  std::vector<Match> matches = std::move(matches_);
   const auto name = [&journeys](const Match& match) -> const std::string& {
     return *journeys[static_cast<std::size_t>(match.journey)].name;
   };
@@ -221,11 +228,12 @@ std::vector<Match> Matcher::Find(std::span<const JourneyRef> journeys, const See
 std::optional<Match> Matcher::FindBestWithin(const JourneyRef& journey, std::int64_t first,
                                              std::int64_t last, const SeenSides& seen,
                                              double threshold) {
+  cancellation_ = nullptr;
   Clear();
-  Scan(0, *journey.map, first, last, seen, threshold);
-  const std::vector<Match> matches = Compute({&journey, 1}, threshold, LeastOfBest(1));
-  const auto best = std::ranges::min_element(matches, IsBetter);
-  return best == matches.end() ? std::nullopt : std::optional(*best);
+  Scan({&journey, 1}, 0, first, last, seen, threshold);
+  Compute({&journey, 1}, threshold, LeastOfBest(1));
+  const auto best = std::ranges::min_element(matches_, IsBetter);
+  return best == matches_.end() ? std::nullopt : std::optional(*best);
 }
 
 }  // namespace homing

@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "homing/base/cancellation.h"
 #include "homing/journey/journey_map.h"
 #include "homing/journey/journey_ref.h"
 #include "homing/journey/see_landmarks.h"
@@ -43,9 +44,10 @@ class Matcher {
  public:
   // Distinct landmarks, each with its best step for all landmarks seen on its side; best P_T first,
   // ties by journey name, step, side, landmark. Each journey uses its own deviation model. A P_T of
-  // 0 is no match. REQUIRES: Validate(options).ok().
+  // 0 is no match. Once `cancellation` is cancelled, the result is incomplete. REQUIRES:
+  // Validate(options).ok().
   std::vector<Match> Find(std::span<const JourneyRef> journeys, const SeenSides& seen,
-                          const MatchOptions& options);
+                          const MatchOptions& options, const Cancellation* cancellation = nullptr);
 
   // The best of one journey's steps from `first` to `last`, if any reaches the threshold.
   // REQUIRES: both are steps of the map.
@@ -78,7 +80,8 @@ class Matcher {
 
   const SurvivalBound& BoundOf(const DeviationModel& model);
   void Clear();
-  void Scan(int number, const JourneyMap& map, std::int64_t first, std::int64_t last,
+  // Scans steps of journey `number`.
+  void Scan(std::span<const JourneyRef> journeys, int number, std::int64_t first, std::int64_t last,
             const SeenSides& seen, double threshold);
   // Selects, of at most kTile fingerprints, those within this squared distance of a seen landmark.
   std::span<const Fingerprint* const> FindNear(std::span<const Fingerprint> tile, float reach);
@@ -86,21 +89,25 @@ class Matcher {
   void ScanAll(std::span<const JourneyRef> journeys, const SeenSides& seen, double threshold);
   // A lower bound of the P_T of the `most`-th best landmark. Call it once a scan.
   float LeastOfBest(int most);
-  // The best of each landmark whose P_T may reach `of_best`.
-  std::vector<Match> Compute(std::span<const JourneyRef> journeys, double threshold, float of_best);
+  // Moves the candidates whose P_T may reach `of_best` into the matches: the best of each landmark.
+  void Compute(std::span<const JourneyRef> journeys, double threshold, float of_best);
 
   std::vector<std::pair<DeviationModel, std::unique_ptr<const SurvivalBound>>> bounds_;
   std::vector<SeenPlace> all_seen_;
   // The near fingerprints of the current tile.
   std::array<const Fingerprint*, kTile> near_;
   std::vector<Candidate> candidates_;
+  std::vector<Match> matches_;
+  // The landmarks that have or had candidates.
+  std::vector<std::size_t> touched_;
+  const Cancellation* cancellation_ = nullptr;
   // The bounds of candidates, by landmark.
   struct KnownLandmark {
     // A lower bound of its P_T.
     float least = 0;
     // The index of its match, or -1.
     std::int32_t match = -1;
-    bool counted = false;
+    bool is_touched = false;
   };
   // Landmarks of all scanned journeys.
   std::size_t landmark_count_ = 0;

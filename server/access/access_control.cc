@@ -9,6 +9,7 @@
 #include "absl/strings/strip.h"
 #include "homing/base/mutex.h"
 #include "homing/base/status_macros.h"
+#include "server/access/text_table.h"
 #include "server/base/error_reason.h"
 
 namespace homing::server {
@@ -18,11 +19,6 @@ constexpr std::size_t kBearerSize = sizeof("Bearer ") - 1;
 
 absl::Status Unauthenticated(const char* reason, const std::string& message) {
   return WithReason(absl::UnauthenticatedError(message), {reason, {}});
-}
-
-bool IsEmpty(const std::string& path) {
-  std::error_code error;
-  return std::filesystem::file_size(path, error) == 0 && !error;
 }
 
 // A file may be half written. It is read only after it was unchanged for a second.
@@ -45,40 +41,40 @@ absl::StatusOr<std::unique_ptr<AccessControl>> AccessControl::Open(const AccessF
     HOMING_ASSIGN_OR_RETURN(access->certificates_,
                             ClientCertificates::Open(files.client_ca, files.crl_dir));
   }
-  HOMING_RETURN_IF_ERROR(access->ReadFiles([](const std::string& /*path*/) { return true; }));
+  HOMING_RETURN_IF_ERROR(access->ReadFiles(Reading::kAtOnce));
   return access;
 }
 
-absl::Status AccessControl::Reload() { return ReadFiles(IsSettled); }
+absl::Status AccessControl::Reload(Reading reading) {
+  absl::Status status = ReadFiles(reading);
+  if (certificates_) status.Update(certificates_->Reload());
+  return status;
+}
 
 absl::Status AccessControl::ReadTokens() {
   HOMING_ASSIGN_OR_RETURN(TokenBook book, TokenBook::Read(files_.tokens));
-  const bool is_empty = IsEmpty(files_.tokens);
   const MutexLock lock(mutex_);
   // The file may be cut or half written; with no tokens nobody could connect. A table without
   // entries is deliberate.
-  if (is_empty && !tokens_->empty()) {
-    return absl::InvalidArgumentError(
-        absl::StrCat("tokens is \"", files_.tokens, "\"; it is empty and must hold [tokens]"));
-  }
+  if (!book.has_table() && tokens_->has_table()) return NoTable("tokens", files_.tokens, "tokens");
   tokens_ = std::make_shared<TokenBook>(std::move(book));
   return absl::OkStatus();
 }
 
-absl::Status AccessControl::ReadFiles(bool (*is_due)(const std::string& path)) {
+absl::Status AccessControl::ReadRoles() {
+  HOMING_ASSIGN_OR_RETURN(RoleBook book, RoleBook::Read(files_.roles));
+  const MutexLock lock(mutex_);
+  roles_ = std::make_shared<RoleBook>(std::move(book));
+  return absl::OkStatus();
+}
+
+absl::Status AccessControl::ReadFiles(Reading reading) {
+  const auto is_due = [reading](const std::string& path) {
+    return !path.empty() && (reading == Reading::kAtOnce || IsSettled(path));
+  };
   absl::Status status;
-  if (!files_.tokens.empty() && is_due(files_.tokens)) status.Update(ReadTokens());
-  if (!files_.roles.empty() && is_due(files_.roles)) {
-    absl::StatusOr<RoleBook> book = RoleBook::Read(files_.roles);
-    status.Update(book.status());
-    if (book.ok()) {
-      const MutexLock lock(mutex_);
-      roles_ = std::make_shared<RoleBook>(*std::move(book));
-    }
-  }
-  if (certificates_) {
-    status.Update(certificates_->Reload());
-  }
+  if (is_due(files_.tokens)) status.Update(ReadTokens());
+  if (is_due(files_.roles)) status.Update(ReadRoles());
   return status;
 }
 

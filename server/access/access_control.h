@@ -44,14 +44,18 @@ class AccessControl {
   absl::StatusOr<std::string> LendToken(const std::string& identity);
   void WithdrawToken(const std::string& token);
 
-  // Reads all files again. A file that cannot be read, or is being written, keeps its previous
-  // content. Returns the first error.
-  absl::Status Reload();
+  enum class Reading { kSettled, kAtOnce };
+
+  // Reads all files again; kSettled: those of tokens and roles only once they were unchanged for a
+  // second, since one may be half written. A file that cannot be read, or holds nothing while the
+  // previous one had entries, keeps its previous content. Returns the first error.
+  absl::Status Reload(Reading reading);
 
  private:
   explicit AccessControl(const AccessFiles& files);
   absl::Status ReadTokens();
-  absl::Status ReadFiles(bool (*is_due)(const std::string& path));
+  absl::Status ReadRoles();
+  absl::Status ReadFiles(Reading reading);
   // The identity that a token was lent to.
   std::optional<std::string> FindLent(const std::string& token) const;
   absl::StatusOr<std::string> IdentityOfToken(const Credentials& credentials) const;

@@ -59,7 +59,6 @@ class Folder {
   }
 
   absl::Status MakeClient(const std::string& identity) {
-    HOMING_RETURN_IF_ERROR(CheckIdentity(identity, "robot or operator"));
     return Make(identity, {identity, {"URI:" + UriOf(identity)}, false});
   }
 
@@ -115,21 +114,33 @@ class Folder {
   std::vector<std::string> written_;
 };
 
+// The identities that get a certificate.
+absl::StatusOr<std::vector<std::string>> ClientsOf(const CertificateOrder& order) {
+  std::vector<std::string> clients;
+  for (const std::string& robot : order.robots) {
+    clients.push_back("robots/" + robot);
+    HOMING_RETURN_IF_ERROR(CheckNewIdentity(clients.back(), "robot"));
+  }
+  for (const std::string& name : order.operators) {
+    clients.push_back("operators/" + name);
+    HOMING_RETURN_IF_ERROR(CheckNewIdentity(clients.back(), "operator"));
+  }
+  return clients;
+}
+
 }  // namespace
 
 absl::StatusOr<std::vector<std::string>> MakeCertificates(const CertificateOrder& order) {
   HOMING_RETURN_IF_ERROR(CheckRange("days", order.days, 1, 36'500, "days"));
   HOMING_RETURN_IF_ERROR(CheckRange("ca-days", order.ca_days, 1, 36'500, "days"));
+  HOMING_ASSIGN_OR_RETURN(const std::vector<std::string> clients, ClientsOf(order));
   Folder folder(order);
   HOMING_RETURN_IF_ERROR(folder.OpenAuthority(order.renew_ca));
   // Revoke first: a certificate that this command makes must not be revoked by it.
   HOMING_RETURN_IF_ERROR(folder.Revoke(order.revoked));
   HOMING_RETURN_IF_ERROR(folder.MakeServer(order.hosts));
-  for (const std::string& robot : order.robots) {
-    HOMING_RETURN_IF_ERROR(folder.MakeClient("robots/" + robot));
-  }
-  for (const std::string& name : order.operators) {
-    HOMING_RETURN_IF_ERROR(folder.MakeClient("operators/" + name));
+  for (const std::string& client : clients) {
+    HOMING_RETURN_IF_ERROR(folder.MakeClient(client));
   }
   return folder.written();
 }

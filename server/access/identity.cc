@@ -22,15 +22,25 @@ absl::Status BadNames(const char* what) {
       {"BAD_CERTIFICATE", {}});
 }
 
-}  // namespace
+using CheckOfId = absl::Status (*)(const std::string& id, const std::string& field);
 
-absl::Status CheckIdentity(const std::string& identity, const std::string& field) {
+absl::Status CheckWith(CheckOfId check, const std::string& identity, const std::string& field) {
   for (const char* kind : {kRobots, kOperators}) {
     if (absl::StartsWith(identity, kind)) {
-      return CheckId(identity.substr(std::string(kind).size()), field);
+      return check(identity.substr(std::string(kind).size()), field);
     }
   }
   return TextMustBe(field, identity, "robots/ID or operators/ID");
+}
+
+}  // namespace
+
+absl::Status CheckIdentity(const std::string& identity, const std::string& field) {
+  return CheckWith(CheckId, identity, field);
+}
+
+absl::Status CheckNewIdentity(const std::string& identity, const std::string& field) {
+  return CheckWith(CheckNewId, identity, field);
 }
 
 absl::StatusOr<std::string> IdentityOfUris(const std::vector<std::string>& uris) {

@@ -14,6 +14,10 @@ namespace homing::server {
 // INVALID_ARGUMENT naming `field` unless `identity` is "robots/{id}" or "operators/{id}".
 absl::Status CheckIdentity(const std::string& identity, const std::string& field);
 
+// Of an identity that gets a token or a certificate: also, its id may be that of a new robot
+// (CheckNewId). Files with identities of an older version are read as they are.
+absl::Status CheckNewIdentity(const std::string& identity, const std::string& field);
+
 // The identity in a certificate's URI names, "homing:IDENTITY". UNAUTHENTICATED: not exactly one
 // name has that form.
 absl::StatusOr<std::string> IdentityOfUris(const std::vector<std::string>& uris);

@@ -6,6 +6,7 @@
 
 #include <cerrno>
 #include <cstring>
+#include <filesystem>
 
 #include "absl/strings/str_cat.h"
 
@@ -34,11 +35,21 @@ absl::Status WriteTo(const std::string& path, const std::string& text, int flags
 }  // namespace
 
 absl::Status WritePrivateFile(const std::string& path, const std::string& text) {
+  std::error_code error;
+  // A link stays a link: its target is replaced.
+  std::filesystem::path target = path;
+  if (std::filesystem::is_symlink(target, error)) {
+    target = std::filesystem::weakly_canonical(target, error);
+  }
+  const auto before = std::filesystem::status(target, error);
+  if (std::filesystem::exists(before) && !std::filesystem::is_regular_file(before)) {
+    return WriteTo(path, text, 0);
+  }
   // A file that others may read is replaced by a new one.
-  const std::string fresh = path + ".new";
+  const std::string fresh = target.string() + ".new";
   ::unlink(fresh.c_str());
   absl::Status status = WriteTo(fresh, text, O_EXCL);
-  if (status.ok() && ::rename(fresh.c_str(), path.c_str()) != 0) {
+  if (status.ok() && ::rename(fresh.c_str(), target.c_str()) != 0) {
     status = absl::InvalidArgumentError(
         absl::StrCat("\"", path, "\" cannot be written: ", std::strerror(errno)));
   }

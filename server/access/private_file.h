@@ -8,8 +8,8 @@
 
 namespace homing::server {
 
-// Writes (replacing the content) or appends. A new file has mode 0600 from the first byte on.
-// INVALID_ARGUMENT naming the path.
+// Writes (replacing the content) or appends. A new file has mode 0600 from the first byte on. A
+// link stays a link; devices and pipes are written into. INVALID_ARGUMENT naming the path.
 absl::Status WritePrivateFile(const std::string& path, const std::string& text);
 absl::Status AppendPrivateFile(const std::string& path, const std::string& text);
 

@@ -19,8 +19,10 @@ std::string KindOf(const std::string& identity) {
 
 absl::StatusOr<RoleBook> RoleBook::Read(const std::string& path) {
   HOMING_ASSIGN_OR_RETURN(const auto table, ReadTextTable("roles", path, "roles"));
+  // Without the table every identity would have its default role.
+  if (!table.is_present) return NoTable("roles", path, "roles");
   RoleBook book;
-  for (const auto& [identity, name] : table) {
+  for (const auto& [identity, name] : table.entries) {
     HOMING_RETURN_IF_ERROR(IsKind(identity) ? absl::OkStatus() : CheckIdentity(identity, "roles"));
     const auto role = RoleOfName(name);
     if (!role) {

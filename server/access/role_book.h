@@ -16,7 +16,7 @@ class RoleBook {
   // Empty: every identity has DefaultRole.
   RoleBook() = default;
   // The file holds [roles], "robots/r7" = "localise-only". "robots/*" and "operators/*" stand for
-  // identities that are not listed. INVALID_ARGUMENT.
+  // identities that are not listed. INVALID_ARGUMENT, for a file without [roles] too.
   static absl::StatusOr<RoleBook> Read(const std::string& path);
 
   Role Find(const std::string& identity) const;

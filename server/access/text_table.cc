@@ -22,28 +22,32 @@ absl::StatusOr<toml::table> Parse(const std::string& flag, const std::string& pa
 
 }  // namespace
 
-absl::StatusOr<std::map<std::string, std::string>> ReadTextTable(const std::string& flag,
-                                                                 const std::string& path,
-                                                                 const std::string& table) {
+absl::Status NoTable(const std::string& flag, const std::string& path, const std::string& table) {
+  return FlagFileError(flag, path, absl::StrCat("is empty and must hold [", table, "]"));
+}
+
+absl::StatusOr<TextTable> ReadTextTable(const std::string& flag, const std::string& path,
+                                        const std::string& table) {
   HOMING_ASSIGN_OR_RETURN(const std::string text, ReadFlagFile(flag, path));
   const auto parsed = Parse(flag, path, text);
   if (!parsed.ok()) {
     return parsed.status();
   }
-  std::map<std::string, std::string> entries;
+  TextTable read;
   for (const auto& [name, node] : *parsed) {
     if (name.str() != table || !node.is_table()) {
       return FlagFileError(flag, path, absl::StrCat("must hold one table, [", table, "]"));
     }
+    read.is_present = true;
     for (const auto& [key, value] : *node.as_table()) {
       if (!value.is_string()) {
         return FlagFileError(flag, path,
                              absl::StrCat("has a value in [", table, "] that is not a string"));
       }
-      entries.emplace(std::string(key.str()), value.value_or(std::string()));
+      read.entries.emplace(std::string(key.str()), value.value_or(std::string()));
     }
   }
-  return entries;
+  return read;
 }
 
 }  // namespace homing::server

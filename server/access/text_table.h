@@ -9,12 +9,18 @@
 
 namespace homing::server {
 
-// The entries of "[table]", which must be the only table. INVALID_ARGUMENT naming `flag` and the
-// file: it cannot be read, is not TOML, or holds something else. The message holds no value of the
-// file.
-absl::StatusOr<std::map<std::string, std::string>> ReadTextTable(const std::string& flag,
-                                                                 const std::string& path,
-                                                                 const std::string& table);
+struct TextTable {
+  // False: the file has no table at all, for example because it was cut.
+  bool is_present = false;
+  std::map<std::string, std::string> entries;
+};
+
+// "[table]", which must be the only table. INVALID_ARGUMENT naming `flag` and the file: it cannot
+// be read, is not TOML, or holds something else. The message holds no value of the file.
+absl::StatusOr<TextTable> ReadTextTable(const std::string& flag, const std::string& path,
+                                        const std::string& table);
+// The error for a file without "[table]".
+absl::Status NoTable(const std::string& flag, const std::string& path, const std::string& table);
 
 }  // namespace homing::server
 

@@ -61,7 +61,8 @@ std::string ToText(const TokenHash& hash) {
 absl::StatusOr<TokenBook> TokenBook::Read(const std::string& path) {
   HOMING_ASSIGN_OR_RETURN(const auto table, ReadTextTable("tokens", path, "tokens"));
   TokenBook book;
-  for (const auto& [key, identity] : table) {
+  book.has_table_ = table.is_present;
+  for (const auto& [key, identity] : table.entries) {
     const auto hash = HashOfText(key);
     if (!hash) {
       // The key is not repeated: it may be a token that was put there by mistake.
@@ -89,16 +90,19 @@ std::optional<std::string> TokenBook::Find(const std::string& token) const {
 }
 
 absl::Status AddToken(const std::string& path, const std::string& identity, const TokenHash& hash) {
-  HOMING_RETURN_IF_ERROR(CheckIdentity(identity, "identity"));
-  std::string line = absl::StrCat("\"", ToText(hash), "\" = \"", identity, "\"\n");
+  HOMING_RETURN_IF_ERROR(CheckNewIdentity(identity, "identity"));
+  std::string before;
+  bool has_table = false;
   std::error_code error;
-  if (!std::filesystem::exists(path, error)) {
-    line = "[tokens]\n" + line;
-  } else {
+  if (std::filesystem::exists(path, error)) {
     // Do not write to a file that could not be read afterwards.
-    HOMING_RETURN_IF_ERROR(TokenBook::Read(path).status());
+    HOMING_ASSIGN_OR_RETURN(const TokenBook book, TokenBook::Read(path));
+    has_table = book.has_table();
+    HOMING_ASSIGN_OR_RETURN(before, ReadFlagFile("tokens", path));
   }
-  return AppendPrivateFile(path, line);
+  const bool ends_line = before.empty() || before.back() == '\n';
+  return AppendPrivateFile(path, absl::StrCat(ends_line ? "" : "\n", has_table ? "" : "[tokens]\n",
+                                              "\"", ToText(hash), "\" = \"", identity, "\"\n"));
 }
 
 }  // namespace homing::server

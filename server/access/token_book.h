@@ -30,7 +30,8 @@ class TokenBook {
   // File: [tokens], "sha256:HEX" = "robots/r1". INVALID_ARGUMENT.
   static absl::StatusOr<TokenBook> Read(const std::string& path);
 
-  bool empty() const { return entries_.empty(); }
+  // The file holds [tokens], with or without entries.
+  bool has_table() const { return has_table_; }
   // The identity of the token. Compares with every entry, so that the time reveals nothing.
   std::optional<std::string> Find(const std::string& token) const;
 
@@ -39,10 +40,12 @@ class TokenBook {
     TokenHash hash{};
     std::string identity;
   };
+  bool has_table_ = false;
   std::vector<Entry> entries_;
 };
 
 // Appends a line to the file of tokens; creates it (readable by its owner only) if missing.
+// The identity must be a new one's (CheckNewIdentity).
 // INVALID_ARGUMENT (identity, path).
 absl::Status AddToken(const std::string& path, const std::string& identity, const TokenHash& hash);
 

@@ -13,6 +13,7 @@
 #include "absl/status/statusor.h"
 #include "homing/base/cancellation.h"
 #include "homing/base/mutex.h"
+#include "server/base/memory_budget.h"
 #include "server/base/resource_name.h"
 #include "server/catalog/journey_cache.h"
 #include "server/catalog/live_journey.h"
@@ -35,6 +36,8 @@ struct WriterClaim {
 struct CatalogOptions {
   // Map-cache limit in bytes; unused maps are evicted, least recently used first. 0: unlimited.
   std::int64_t cache_bytes = 0;
+  // Most memory of the beliefs of all localising streams, bytes. 0: no limit.
+  std::int64_t belief_bytes = 0;
 };
 
 // Names must be well formed (resource_name.h). Errors of the store are returned unchanged.
@@ -45,11 +48,17 @@ class JourneyCatalog {
   // `index`.
   explicit JourneyCatalog(storage::JourneyStore* store, const CatalogOptions& options = {},
                           FleetIndex* index = nullptr)
-      : store_(store), options_(options), index_(index), cache_(options.cache_bytes) {}
+      : store_(store),
+        options_(options),
+        index_(index),
+        cache_(options.cache_bytes),
+        beliefs_(options.belief_bytes) {}
 
   bool read_only() const { return store_->read_only(); }
   // Null without an index.
   FleetIndex* index() const { return index_; }
+  // Memory of the beliefs of localising streams.
+  MemoryBudget* beliefs() { return &beliefs_; }
 
   // Creates a journey. Returns the existing one if it is active and has the same writer_id (not
   // empty), settings and readers (in any order); else ALREADY_EXISTS.
@@ -116,6 +125,7 @@ class JourneyCatalog {
   FleetIndex* const index_;
   std::array<Mutex, 32> stripes_;
   JourneyCache cache_;
+  MemoryBudget beliefs_;
 };
 
 }  // namespace homing::server

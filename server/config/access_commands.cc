@@ -24,7 +24,7 @@ absl::Status RunToken(const TokenOrder& order, const std::string& tokens) {
   if (tokens.empty()) {
     return FieldError("tokens", "must name the file that gets the hash");
   }
-  HOMING_RETURN_IF_ERROR(CheckIdentity(order.identity, "identity"));
+  HOMING_RETURN_IF_ERROR(CheckNewIdentity(order.identity, "identity"));
   HOMING_ASSIGN_OR_RETURN(const std::string token, MakeToken());
   // The robot's file first: a token that the server does not know is harmless.
   HOMING_RETURN_IF_ERROR(WritePrivateFile(order.out, token + "\n"));

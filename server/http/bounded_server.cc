@@ -60,16 +60,26 @@ absl::Status BoundedServer::UseCertificate(const std::string& certificate, const
   return absl::OkStatus();
 }
 
-bool BoundedServer::Enter(const std::string& address) {
+void BoundedServer::StopServing() {
+  stop();
   const MutexLock lock(mutex_);
+  stopping_ = true;
+  for (const socket_t socket : sockets_) ::shutdown(socket, SHUT_RDWR);
+}
+
+bool BoundedServer::Enter(const std::string& address, socket_t socket) {
+  const MutexLock lock(mutex_);
+  if (stopping_) return false;
   std::size_t& open = connections_[address];
   if (open >= kMostOfOneAddress) return false;
   ++open;
+  sockets_.insert(socket);
   return true;
 }
 
-void BoundedServer::Leave(const std::string& address) {
+void BoundedServer::Leave(const std::string& address, socket_t socket) {
   const MutexLock lock(mutex_);
+  sockets_.erase(socket);
   if (--connections_[address] == 0) connections_.erase(address);
 }
 
@@ -78,9 +88,9 @@ bool BoundedServer::process_and_close_socket(socket_t socket) {
   int port = 0;
   TimedStream(socket, nullptr, {}).get_remote_ip_and_port(address, port);
   bool served = false;
-  if (Enter(address)) {
+  if (Enter(address, socket)) {
     served = Serve(socket);
-    Leave(address);
+    Leave(address, socket);
   }
   ::shutdown(socket, SHUT_RDWR);
   ::close(socket);

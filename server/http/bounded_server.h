@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
 
 #include "absl/status/status.h"
@@ -30,19 +31,24 @@ class BoundedServer final : public httplib::Server {
   // Serves TLS with these PEM files from the next connection on. INVALID_ARGUMENT: they cannot be
   // used; the previous ones stay in use.
   absl::Status UseCertificate(const std::string& certificate, const std::string& key);
+  // Accepts no more connections and closes the others, also those whose requests are incomplete.
+  // Handlers that run continue. Once, after the server listens.
+  void StopServing();
 
  private:
   // Called by the library on one of its threads.
   bool process_and_close_socket(socket_t socket) override;
   bool Serve(socket_t socket);
-  // False: the address has kMostOfOneAddress connections already.
-  bool Enter(const std::string& address);
-  void Leave(const std::string& address);
+  // False: the address has kMostOfOneAddress connections already, or the server stops.
+  bool Enter(const std::string& address, socket_t socket);
+  void Leave(const std::string& address, socket_t socket);
 
   Mutex mutex_;
   // Null without TLS. A connection keeps the context that it started with.
   std::shared_ptr<SSL_CTX> context_ HOMING_GUARDED_BY(mutex_);
   std::map<std::string, std::size_t> connections_ HOMING_GUARDED_BY(mutex_);
+  std::set<socket_t> sockets_ HOMING_GUARDED_BY(mutex_);
+  bool stopping_ HOMING_GUARDED_BY(mutex_) = false;
 };
 
 }  // namespace homing::server

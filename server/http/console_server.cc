@@ -67,17 +67,21 @@ ConsoleServer::ConsoleServer(std::unique_ptr<State> state) : state_(std::move(st
 
 ConsoleServer::~ConsoleServer() {
   if (!state_->thread.joinable()) return;
+  Stop();
+  state_->thread.join();
+}
+
+void ConsoleServer::Stop() {
   std::set<std::shared_ptr<EventFeed>> feeds;
   {
     const MutexLock lock(state_->mutex);
-    state_->stopping = true;
+    if (std::exchange(state_->stopping, true)) return;
     feeds = state_->feeds;
   }
   for (const auto& feed : feeds) feed->Stop();
   // stop() has no effect before the server listens.
   while (!state_->server.is_running()) std::this_thread::yield();
-  state_->server.stop();
-  state_->thread.join();
+  state_->server.StopServing();
 }
 
 const std::string& ConsoleServer::address() const { return state_->address; }

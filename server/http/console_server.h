@@ -40,8 +40,11 @@ class ConsoleServer {
   // UNAVAILABLE: the address is in use or not available; INVALID_ARGUMENT: the TLS files are bad.
   static absl::StatusOr<std::unique_ptr<ConsoleServer>> Start(const ConsoleOptions& options,
                                                               const ConsoleContext& context);
-  // Ends all connections.
+  // Waits for the requests that still run: their calls must have been ended.
   ~ConsoleServer();
+
+  // Accepts no more connections and closes all. Idempotent.
+  void Stop();
 
   // "host:port", with the port that was picked.
   const std::string& address() const;

@@ -10,6 +10,8 @@
 
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
+#include "homing/base/cancellation.h"
+#include "homing/base/status_macros.h"
 #include "server/base/trace_scope.h"
 #include "server/rpc/incoming_call.h"
 #include "server/rpc/service_core.h"
@@ -33,8 +35,9 @@ class ChunkStream : public grpc::ServerWriteReactor<Response>,
                     public OpenStream,
                     public std::enable_shared_from_this<ChunkStream<Response>> {
  public:
-  ChunkStream(ServiceCore* core, grpc::CallbackServerContext* context, Rpc rpc)
-      : core_(core), call_(core, *context, rpc), watch_(core, context) {}
+  // `pool` belongs to the core and makes the file.
+  ChunkStream(ServiceCore* core, grpc::CallbackServerContext* context, Rpc rpc, WorkerPool* pool)
+      : core_(core), pool_(pool), call_(core, *context, rpc), watch_(core, context) {}
 
   void Open() {
     self_ = this->shared_from_this();
@@ -42,7 +45,7 @@ class ChunkStream : public grpc::ServerWriteReactor<Response>,
     if (!core_->streams.Add(self_)) {
       entered = DrainingError();
     }
-    if (entered.ok() && !core_->pool.TryRun([self = self_] { self->Begin(); })) {
+    if (entered.ok() && !pool_->TryRun([self = self_] { self->Begin(); })) {
       entered = BusyError();
     }
     if (!entered.ok()) {
@@ -65,20 +68,26 @@ class ChunkStream : public grpc::ServerWriteReactor<Response>,
 
   void OnDone() override {
     watch_.Forget();
+    Release(core_);
     const std::shared_ptr<ChunkStream> self = std::move(self_);
     core_->streams.Remove(self);
   }
 
  protected:
-  // Makes the file, in a worker.
+  // Makes the file.
   virtual absl::Status Prepare(ServiceCore* core, IncomingCall* call) = 0;
   // The next chunk, at most kChunkBytes; empty: the end.
   virtual absl::StatusOr<std::string> NextChunk() = 0;
+  // Frees what Prepare took from the core; called once, at the end.
+  virtual void Release(ServiceCore* /*core*/) {}
 
  private:
   void Begin() {
     const TraceScope scope(call_.trace());
-    const absl::Status status = Guarded([this] { return Prepare(core_, &call_); });
+    const absl::Status status = Guarded([this] {
+      HOMING_RETURN_IF_ERROR(CheckAwaited(&watch_));
+      return Prepare(core_, &call_);
+    });
     if (status.ok()) {
       WriteNext();
     } else {
@@ -97,6 +106,7 @@ class ChunkStream : public grpc::ServerWriteReactor<Response>,
   }
 
   ServiceCore* const core_;
+  WorkerPool* const pool_;
   IncomingCall call_;
   StreamWatch watch_;
   std::shared_ptr<ChunkStream> self_;

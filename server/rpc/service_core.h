@@ -54,8 +54,9 @@ inline storage::CommitQueueOptions QueueOptions(Metrics* metrics) {
 // The order of destruction is the reverse: first the commit queue, then the store. The workers have
 // stopped before.
 struct ServiceCore {
-  // Most tasks of long_work that wait.
+  // Most tasks of long_work and of archives that wait.
   static constexpr int kMaxLongWork = 16;
+  static constexpr int kMaxArchives = 64;
   static constexpr int kStoreWriters = 8;
   static constexpr int kStoreReaders = 4;
 
@@ -77,6 +78,7 @@ struct ServiceCore {
         queue(store.get(), QueueOptions(metrics.get())),
         pool(core_options.workers) {}
   ~ServiceCore() {
+    archives.Stop();
     store_writes.Stop();
     store_reads.Stop();
     pool.Stop();
@@ -102,12 +104,15 @@ struct ServiceCore {
   JourneyQuota quota;
   RateLimiter rates;
   StreamLimiter slots;
-  // Bytes of files that are being imported.
+  // Bytes of files that are being imported, and exported.
   std::atomic<std::int64_t> import_bytes = 0;
+  std::atomic<std::int64_t> export_bytes = 0;
   storage::CommitQueue queue;
   StreamRegistry streams;
   // Runs long tasks, one at a time, so that robots do not wait for them.
   WorkerPool long_work{1, kMaxLongWork};
+  // Reads and makes journey files, one at a time: a file needs several times its size meanwhile.
+  WorkerPool archives{1, kMaxArchives};
   // What waits for the store and computes little, so that neither robots wait for a database that
   // is away, nor this for frames. A robot that goes home reads only.
   WorkerPool store_writes{kStoreWriters};

@@ -14,6 +14,20 @@
 
 namespace homing::server {
 
+namespace {
+
+// Adds `bytes` to `all`. RESOURCE_EXHAUSTED: these are then more than the quota.
+absl::Status TakeMemory(const ServiceCore& core, std::int64_t bytes, const char* what,
+                        const char* reason, std::atomic<std::int64_t>* all) {
+  const std::int64_t most = core.options.limits.memory_quota;
+  if ((*all += bytes) <= most || most == 0) return absl::OkStatus();
+  return WithReason(absl::ResourceExhaustedError(absl::StrCat(
+                        "the running ", what, " need more than memory-quota, ", most, " bytes")),
+                    {reason, {}});
+}
+
+}  // namespace
+
 absl::Status ExportStream::Prepare(ServiceCore* core, IncomingCall* call) {
   HOMING_RETURN_IF_ERROR(call->Authorize(name_));
   HOMING_ASSIGN_OR_RETURN(const JourneyName name, ParseJourneyName(name_, "name"));
@@ -21,7 +35,11 @@ absl::Status ExportStream::Prepare(ServiceCore* core, IncomingCall* call) {
   const LiveJourneys one = {std::move(journey)};
   const MapsLock lock(one);
   HOMING_ASSIGN_OR_RETURN(file_, EncodeJourney(one.front()->record(), one.front()->map()));
-  return absl::OkStatus();
+  bytes_ = static_cast<std::int64_t>(file_.size());
+  const absl::Status status =
+      TakeMemory(*core, bytes_, "exports", "EXPORT_MEMORY", &core->export_bytes);
+  if (!status.ok()) file_ = {};
+  return status;
 }
 
 absl::StatusOr<std::string> ExportStream::NextChunk() {
@@ -70,12 +88,8 @@ absl::Status ImportStream::TakeChunk(const std::string& chunk) {
                   absl::StrCat("at most ", kMaxArchiveBytes, " bytes"));
   }
   taken_ += bytes;
-  const std::int64_t most = core_->options.limits.memory_quota;
-  if ((core_->import_bytes += bytes) > most && most > 0) {
-    return WithReason(absl::ResourceExhaustedError(absl::StrCat(
-                          "the running imports need more than memory-quota, ", most, " bytes")),
-                      {"IMPORT_MEMORY", {}});
-  }
+  HOMING_RETURN_IF_ERROR(
+      TakeMemory(*core_, bytes, "imports", "IMPORT_MEMORY", &core_->import_bytes));
   file_ += chunk;
   return absl::OkStatus();
 }
@@ -86,7 +100,7 @@ void ImportStream::OnReadDone(bool ok) {
     return;
   }
   if (!ok) {
-    if (!core_->store_writes.TryRun([self = self_] { self->Complete(); })) {
+    if (!core_->archives.TryRun([self = self_] { self->Complete(); })) {
       FinishWith(BusyError());
     }
     return;
@@ -110,14 +124,13 @@ absl::Status ImportStream::Store() {
   if (name_.empty()) {
     return FieldError("name", "is missing; the first message must be name");
   }
+  // gRPC reports the end of a cancelled stream like the end of a complete one.
+  HOMING_RETURN_IF_ERROR(CheckAwaited(&watch_));
   HOMING_RETURN_IF_ERROR(core_->quota.CheckNew(name_));
-  HOMING_ASSIGN_OR_RETURN(ArchivedJourney archive, DecodeJourney(file_));
+  HOMING_ASSIGN_OR_RETURN(ArchivedJourney archive, DecodeJourney(file_, &watch_));
   archive.record.name = name_;
   archive.record.create_time_ns = absl::GetCurrentTimeNanos();
-  // gRPC reports the end of a cancelled stream like the end of a complete one.
-  if (watch_.IsCancelled()) {
-    return absl::CancelledError("the client cancelled the import");
-  }
+  HOMING_RETURN_IF_ERROR(CheckAwaited(&watch_));
   HOMING_ASSIGN_OR_RETURN(const storage::JourneyRecord record,
                           core_->catalog.Import(archive.record, archive.map));
   *response_->mutable_journey() = EncodeJourneyRecord(record);

@@ -20,15 +20,18 @@ namespace homing::server {
 class ExportStream final : public ChunkStream<v1::ExportJourneyResponse> {
  public:
   ExportStream(ServiceCore* core, grpc::CallbackServerContext* context, const std::string& name)
-      : ChunkStream(core, context, Rpc::kExportJourney), name_(name) {}
+      : ChunkStream(core, context, Rpc::kExportJourney, &core->archives), name_(name) {}
 
  private:
   absl::Status Prepare(ServiceCore* core, IncomingCall* call) override;
   absl::StatusOr<std::string> NextChunk() override;
+  void Release(ServiceCore* core) override { core->export_bytes -= bytes_; }
 
   const std::string name_;
   std::string file_;
   std::size_t written_ = 0;
+  // This stream's part of core->export_bytes.
+  std::int64_t bytes_ = 0;
 };
 
 // The stream owns itself until gRPC calls OnDone.

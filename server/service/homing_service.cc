@@ -7,6 +7,20 @@
 
 namespace homing::server {
 
+namespace {
+
+// A robot sees at most two landmarks a camera. More take as much longer, on a long map for many
+// seconds: robots do not wait for them.
+constexpr int kUsualFingerprints = 8;
+
+bool IsLong(const v1::MatchLandmarksRequest& request) {
+  return request.left().fingerprints().fingerprints_size() +
+             request.right().fingerprints().fingerprints_size() >
+         kUsualFingerprints;
+}
+
+}  // namespace
+
 grpc::ServerUnaryReactor* HomingServiceHandler::MatchLandmarks(
     grpc::CallbackServerContext* context, const v1::MatchLandmarksRequest* request,
     v1::MatchLandmarksResponse* response) {
@@ -23,7 +37,8 @@ grpc::ServerUnaryReactor* HomingServiceHandler::MatchLandmarks(
                                 server::MatchLandmarks(&core->catalog, query, limits));
         *response = EncodeQueryResult(result);
         return absl::OkStatus();
-      });
+      },
+      IsLong(*request) ? &core_->long_work : &core_->pool);
 }
 
 grpc::ServerBidiReactor<v1::LocalizeRequest, v1::LocalizeResponse>* HomingServiceHandler::Localize(

@@ -30,6 +30,8 @@ constexpr std::size_t kHeaderBytes = kMagic.size() + 1;
 constexpr std::size_t kChecksumBytes = 4;
 // Twenty hours at thirty frames a second. Steps without fingerprints take no room in the file, but
 // a hundred bytes each while a robot localises on them.
+// Steps read between two checks for cancellation.
+constexpr std::int64_t kStepsBetweenChecks = 10'000;
 constexpr std::int64_t kMostImportedSteps = 2'000'000;
 
 absl::Status Damaged(const std::string& what) {
@@ -182,10 +184,12 @@ absl::StatusOr<RecordedFingerprint> FingerprintAt(const v1::JourneyMap& message,
   return recorded;
 }
 
-absl::Status AppendSteps(const v1::JourneyMap& message, JourneyMap& map) {
+absl::Status AppendSteps(const v1::JourneyMap& message, const Cancellation* cancellation,
+                         JourneyMap& map) {
   int index = 0;
   JourneyStep step;
   for (std::int64_t number = 0; number < message.step_count(); ++number) {
+    if (number % kStepsBetweenChecks == 0) HOMING_RETURN_IF_ERROR(CheckAwaited(cancellation));
     step.step = number;
     step.fingerprints.clear();
     if (!message.sequences().empty()) step.sequence = message.sequences(static_cast<int>(number));
@@ -238,7 +242,8 @@ absl::StatusOr<std::string> EncodeJourney(const storage::JourneyRecord& record,
   return EncodeAs(kVersion, record, map);
 }
 
-absl::StatusOr<ArchivedJourney> DecodeJourney(std::string_view bytes) {
+absl::StatusOr<ArchivedJourney> DecodeJourney(std::string_view bytes,
+                                              const Cancellation* cancellation) {
   HOMING_ASSIGN_OR_RETURN(const v1::JourneyMap message, Unwrap(bytes));
   const char version = bytes[kMagic.size()];
   HOMING_RETURN_IF_ERROR(CheckColumns(message, version));
@@ -248,7 +253,7 @@ absl::StatusOr<ArchivedJourney> DecodeJourney(std::string_view bytes) {
   journey.record.start_time_ns = message.start_time_ns();
   journey.record.end_time_ns = message.end_time_ns();
   journey.map = JourneyMap(journey.record.settings);
-  HOMING_RETURN_IF_ERROR(AppendSteps(message, journey.map));
+  HOMING_RETURN_IF_ERROR(AppendSteps(message, cancellation, journey.map));
   HOMING_RETURN_IF_ERROR(
       SetProfiles("left_profiles", message.left_profiles(), Side::kLeft, journey.map));
   HOMING_RETURN_IF_ERROR(

@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "absl/status/statusor.h"
+#include "homing/base/cancellation.h"
 #include "homing/journey/journey_map.h"
 #include "storage/journey_store.h"
 
@@ -29,7 +30,8 @@ absl::StatusOr<std::string> EncodeJourney(const storage::JourneyRecord& record,
 
 // INVALID_ARGUMENT with the reason: another kind of file, too large, damaged (truncated, changed),
 // or with content that no map can have.
-absl::StatusOr<ArchivedJourney> DecodeJourney(std::string_view bytes);
+absl::StatusOr<ArchivedJourney> DecodeJourney(std::string_view bytes,
+                                              const Cancellation* cancellation = nullptr);
 
 }  // namespace homing::server
 

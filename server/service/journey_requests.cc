@@ -26,7 +26,9 @@ absl::StatusOr<JourneySettings> DecodeSettings(const v1::JourneySettings& messag
   HOMING_ASSIGN_OR_RETURN(JourneySettings settings,
                           wire::FromProto(message, "journey.settings", JourneySettings()));
   const auto model = models->Get(settings.deviation_model_name);
-  HOMING_RETURN_IF_ERROR(Within("journey.settings.deviation_model", model.status()));
+  constexpr char kModelField[] = "journey.settings.deviation_model";
+  HOMING_RETURN_IF_ERROR(FieldOf(model.status()) ? Renamed(model.status(), "name", kModelField)
+                                                 : Within(kModelField, model.status()));
   settings.deviation_model = model->model;
   HOMING_RETURN_IF_ERROR(Within("journey.settings", Validate(settings)));
   return settings;
@@ -57,15 +59,24 @@ v1::AnalyzeAliasingResponse EncodeAliasing(const Aliasing& aliasing) {
   return message;
 }
 
-void AddFingerprints(const JourneyMap& map, const Landmark& landmark, v1::Landmark* message) {
-  for (std::int64_t step = landmark.first_step; step <= landmark.last_step; ++step) {
+// To the landmarks of the page, in one pass over the steps: an imported landmark may span all.
+void AddFingerprints(const JourneyMap& map, v1::ListLandmarksResponse* page) {
+  if (page->landmarks().empty()) return;
+  std::int64_t end = 0;
+  for (const v1::Landmark& landmark : page->landmarks()) {
+    end = std::max<std::int64_t>(end, landmark.last_step() + 1);
+  }
+  // Landmarks are numbered in the order of their first steps.
+  const int first = page->landmarks(0).landmark();
+  for (std::int64_t step = page->landmarks(0).first_step(); step < end; ++step) {
     for (const Fingerprint& fingerprint : map.fingerprints(step)) {
-      if (fingerprint.landmark == message->landmark()) {
-        message->add_steps(step);
-        message->add_xs(fingerprint.x);
-        message->add_ys(fingerprint.y);
-        message->add_counts(fingerprint.count);
-      }
+      const int index = fingerprint.landmark - first;
+      if (index < 0 || index >= page->landmarks_size()) continue;
+      v1::Landmark* const landmark = page->mutable_landmarks(index);
+      landmark->add_steps(step);
+      landmark->add_xs(fingerprint.x);
+      landmark->add_ys(fingerprint.y);
+      landmark->add_counts(fingerprint.count);
     }
   }
 }
@@ -135,12 +146,9 @@ absl::Status ListLandmarkPage(const v1::ListLandmarksRequest& request, JourneyCa
   const JourneyMap& map = one.front()->map();
   const std::size_t last = std::min(map.landmarks().size(), first + static_cast<std::size_t>(size));
   for (std::size_t i = first; i < last; ++i) {
-    v1::Landmark* message = response->add_landmarks();
-    *message = EncodeLandmark(static_cast<int>(i), map.landmarks()[i]);
-    if (request.include_fingerprints()) {
-      AddFingerprints(map, map.landmarks()[i], message);
-    }
+    *response->add_landmarks() = EncodeLandmark(static_cast<int>(i), map.landmarks()[i]);
   }
+  if (request.include_fingerprints()) AddFingerprints(map, response);
   if (last < map.landmarks().size()) {
     response->set_next_page_token(EncodePageToken(request.parent(), absl::StrCat(last)));
   }

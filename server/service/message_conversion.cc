@@ -1,5 +1,6 @@
 #include "server/service/message_conversion.h"
 
+#include "homing/base/field_error.h"
 #include "homing/base/status_macros.h"
 #include "proto/wire/enum_conversion.h"
 #include "proto/wire/settings_conversion.h"
@@ -56,6 +57,10 @@ absl::StatusOr<LocalizationPrior> DecodePrior(const v1::LocalizePrior& message) 
   LocalizationPrior prior;
   prior.journey = message.journey();
   prior.start.step = message.step();
+  if (!v1::Direction_IsValid(message.direction())) {
+    return MustBe("config.prior.direction", static_cast<int>(message.direction()),
+                  "a value of Direction");
+  }
   prior.start.direction = static_cast<Direction>(message.direction());
   prior.start.probability = message.probability();
   if (message.has_path_offset()) prior.start.path_offset = message.path_offset();

@@ -13,7 +13,7 @@ namespace {
 class BackUpStream final : public ChunkStream<v1::BackUpStoreResponse> {
  public:
   BackUpStream(ServiceCore* core, grpc::CallbackServerContext* context)
-      : ChunkStream(core, context, Rpc::kBackUpStore) {}
+      : ChunkStream(core, context, Rpc::kBackUpStore, &core->store_reads) {}
 
  private:
   absl::Status Prepare(ServiceCore* core, IncomingCall* call) override {

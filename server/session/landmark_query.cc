@@ -31,6 +31,11 @@ absl::Status CheckFingerprints(const SeenFingerprints& seen) {
   return absl::OkStatus();
 }
 
+// "left.frames.first".
+std::string FramePath(std::size_t side, const char* which) {
+  return absl::StrCat(kCameraNames[side], ".frames.", which);
+}
+
 // The sizes of the views' images; of a pair of frames, the size of the first.
 absl::StatusOr<QueryRobot> MeasureRobot(const LandmarkQuery& query, const DecodeLimits& limits) {
   QueryRobot robot;
@@ -38,8 +43,7 @@ absl::StatusOr<QueryRobot> MeasureRobot(const LandmarkQuery& query, const Decode
   for (std::size_t side = 0; side < query.views.size(); ++side) {
     if (const auto* pair = std::get_if<FramePair>(&query.views[side])) {
       const auto image = DecodeGray(pair->first, limits);
-      HOMING_RETURN_IF_ERROR(
-          Within(absl::StrCat(kCameraNames[side], ".frames.first"), image.status()));
+      HOMING_RETURN_IF_ERROR(Renamed(image.status(), "frame", FramePath(side, "first")));
       robot.widths[side] = image->cols;
       robot.heights[side] = image->rows;
     } else if (const auto* flow = std::get_if<FlowField>(&query.views[side])) {
@@ -64,12 +68,17 @@ absl::StatusOr<ObservedFlow> FlowOf(const QueryView& view, std::size_t side,
     HOMING_RETURN_IF_ERROR(tracker.Compute(observation).status());
     observation.views[side] = pair->second;
     observation.sequence = 1;
-  } else if (const auto* flow = std::get_if<FlowField>(&view)) {
-    observation.views[side] = *flow;
-  } else {
-    return ObservedFlow();
+    auto flow_of_pair = tracker.Compute(observation);
+    HOMING_RETURN_IF_ERROR(Renamed(flow_of_pair.status(),
+                                   absl::StrCat(kCameraNames[side], ".frame"),
+                                   FramePath(side, "second")));
+    return flow_of_pair;
   }
-  return tracker.Compute(observation);
+  if (const auto* flow = std::get_if<FlowField>(&view)) {
+    observation.views[side] = *flow;
+    return tracker.Compute(observation);
+  }
+  return ObservedFlow();
 }
 
 struct SeenNow {
@@ -147,7 +156,9 @@ absl::StatusOr<LandmarkQueryResult> MatchLandmarks(JourneyCatalog* catalog,
   for (const std::shared_ptr<LiveJourney>& journey : selection.journeys) {
     refs.push_back({&journey->name(), &journey->map()});
   }
-  for (const Match& match : Matcher().Find(refs, result.seen, query.match)) {
+  const auto matches = Matcher().Find(refs, result.seen, query.match, limits.cancellation);
+  HOMING_RETURN_IF_ERROR(CheckAwaited(limits.cancellation));
+  for (const Match& match : matches) {
     result.matches.push_back({*refs[static_cast<std::size_t>(match.journey)].name, match});
   }
   return result;

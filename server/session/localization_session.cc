@@ -7,10 +7,18 @@
 #include "absl/strings/str_cat.h"
 #include "homing/base/range_check.h"
 #include "homing/base/status_macros.h"
+#include "homing/localization/speed_evidence.h"
+#include "server/base/error_reason.h"
 #include "server/session/sequence_check.h"
 
 namespace homing::server {
 namespace {
+
+// A belief holds a mass for each step, direction and speed, some sums, and the answer's masses.
+constexpr std::int64_t kBytesAStep = sizeof(float) * (2 * kSpeedCount + 6);
+
+// Of an offset relative to the distance of what is seen; real ones are below 1.
+constexpr double kMostPathOffset = 1000;
 
 // Sets the size of one camera's image. Decodes the frame, since a compressed one may give no size.
 absl::Status MeasureView(const CameraView& view, const DecodeLimits& limits, int* width,
@@ -68,6 +76,24 @@ absl::StatusOr<std::unique_ptr<LocalizationSession>> LocalizationSession::Open(
   return session;
 }
 
+absl::Status LocalizationSession::TakeMemory() {
+  std::int64_t steps = 0;
+  for (const auto& journey : journeys_) steps += journey->record().step_count;
+  if (memory_.TrySet(steps * kBytesAStep)) return absl::OkStatus();
+  return WithReason(absl::ResourceExhaustedError(absl::StrCat(
+                        "localising on ", steps, " steps needs ", steps * kBytesAStep,
+                        " bytes; together with the other streams this is more than memory-quota, ",
+                        catalog_->beliefs()->most(), " bytes")),
+                    {"LOCALIZE_MEMORY", {}});
+}
+
+void LocalizationSession::GiveMemoryBack() {
+  std::size_t held = 0;
+  for (const StepMass& of_journey : localizer_->masses()) held += of_journey.mass.size();
+  // None before the first step: the belief is not made yet.
+  if (held > 0) memory_.Set(static_cast<std::int64_t>(held) * kBytesAStep);
+}
+
 absl::Status LocalizationSession::CheckSequence(std::int64_t sequence) {
   HOMING_RETURN_IF_ERROR(CheckSequenceNumber(sequence));
   if (due_ && sequence != *due_) {
@@ -88,6 +114,7 @@ absl::Status LocalizationSession::Start(const Observation& observation) {
   selection.options.position = query_.position;
   HOMING_RETURN_IF_ERROR(Validate(selection.options));
   journeys_ = std::move(selection.journeys);
+  HOMING_RETURN_IF_ERROR(TakeMemory());
   HOMING_RETURN_IF_ERROR(catalog_->LoadMaps(pattern_, &journeys_, limits_.cancellation));
   options_ = selection.options;
   localizer_.emplace(options_, limits_);
@@ -98,6 +125,9 @@ absl::Status LocalizationSession::Start(const Observation& observation) {
 absl::Status LocalizationSession::StartAt(const LocalizationPrior& prior) {
   for (std::size_t i = 0; i < journeys_.size(); ++i) {
     if (journeys_[i]->name() != prior.journey) continue;
+    HOMING_RETURN_IF_ERROR(CheckRange("config.prior.path_offset",
+                                      prior.start.path_offset.value_or(0), -kMostPathOffset,
+                                      kMostPathOffset));
     PositionPrior start = prior.start;
     start.journey = static_cast<int>(i);
     return Within("config", localizer_->Start(RefsOf(journeys_), start));
@@ -135,6 +165,7 @@ absl::StatusOr<Localization> LocalizationSession::Localize(const Observation& ob
   started_ = true;
   absl::StatusOr<Localization> result = localizer_->Localize(observation, RefsOf(journeys_));
   if (!result.ok()) return Within("observation", result.status());
+  GiveMemoryBack();
   due_ = observation.sequence + 1;
   position_ = result->position;
   return result;

@@ -71,7 +71,13 @@ class LocalizationSession {
         query_(query),
         pattern_(std::move(pattern)),
         limits_(limits),
-        prior_(query.prior) {}
+        prior_(query.prior),
+        memory_(catalog->beliefs()) {}
+  // Takes the memory of a belief over all steps of the journeys, which an unsure robot needs.
+  // RESOURCE_EXHAUSTED.
+  absl::Status TakeMemory();
+  // Gives back what the belief does not hold any more.
+  void GiveMemoryBack();
   absl::Status CheckSequence(std::int64_t sequence);
   absl::Status Start(const Observation& observation);
   absl::Status StartAt(const LocalizationPrior& prior);
@@ -91,6 +97,7 @@ class LocalizationSession {
   Position position_;
   std::optional<std::int64_t> due_;
   bool started_ = false;
+  MemoryBudget::Share memory_;
 };
 
 }  // namespace homing::server

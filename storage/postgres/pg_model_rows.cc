@@ -36,7 +36,9 @@ absl::StatusOr<StoredModel> FindModel(PgConnection& connection, const std::strin
                           connection.Run(kFindModel, PgArguments().Text(name), deadline));
   if (rows.size() == 0) return ModelNotFound(name);
   const PgRow row{rows, 0};
-  return ReadModel(row);
+  HOMING_ASSIGN_OR_RETURN(StoredModel model, ReadModel(row));
+  HOMING_RETURN_IF_ERROR(CheckModel(model));
+  return model;
 }
 
 absl::StatusOr<std::vector<StoredModel>> ListModelRows(PgConnection& connection,

@@ -7,6 +7,7 @@
 #include "absl/strings/str_cat.h"
 #include "homing/base/status_macros.h"
 #include "homing/landmark/profile_code.h"
+#include "storage/row_columns.h"
 
 namespace homing::storage::postgres {
 namespace {
@@ -47,7 +48,7 @@ std::optional<std::string> ProfileBytes(const std::optional<FlowProfile>& profil
 absl::StatusOr<JourneyStep> StepOfRow(const PgRows& rows, int row) {
   JourneyStep step;
   step.step = rows.Integer(row, 0);
-  if (!rows.IsNull(row, 1)) step.sequence = rows.Integer(row, 1);
+  if (!rows.IsNull(row, 1)) step.sequence = StoredSequence(rows.Integer(row, 1));
   HOMING_ASSIGN_OR_RETURN(step.fingerprints, DecodeFingerprints(rows.Text(row, 2)));
   for (int side = 0; side < 2; ++side) {
     if (rows.IsNull(row, 3 + side)) continue;

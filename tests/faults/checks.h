@@ -28,6 +28,15 @@ void CheckFullDisk(const Programs& programs, const std::string& folder, Figures*
 // EIO on write, sync and read, a file system that turns read-only, a wall clock that jumps.
 void CheckBadDisk(const Programs& programs, Figures* figures);
 
+// The database is moved away under robots that record, and put back.
+void CheckLostFile(const Programs& programs, Figures* figures);
+
+// File descriptors used up; HTTP requests that never end; headers without end, through nginx.
+void CheckSockets(const Programs& programs, Figures* figures);
+
+// Small requests that want much memory: maps, queries, exports and images.
+void CheckMemory(const Programs& programs, Figures* figures);
+
 // 200 robots record, finish, localise and delete for `minutes`, through restarts, cut links and bad
 // clients.
 void CheckSoak(const Programs& programs, double minutes, int robots, Figures* figures);

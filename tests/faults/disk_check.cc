@@ -27,6 +27,8 @@ struct Trouble {
   absl::StatusCode code = absl::StatusCode::kUnavailable;
   // A journey can be deleted meanwhile.
   bool deletes = false;
+  // Robots come home meanwhile.
+  bool localises = true;
 };
 
 // A server with recording robots, and the checks before, during and after a fault.
@@ -102,9 +104,11 @@ class Trial {
     figures_->Holds(absl::StrCat(trouble.name, "_told_", absl::StatusCodeToString(trouble.code)),
                     status.code() == trouble.code);
     if (status.code() != trouble.code) std::cerr << status << '\n';
-    const auto matched = Localize();
-    figures_->AtLeast(trouble.name + "_localises", matched.value_or(0), 0.5);
-    if (!matched.ok()) std::cerr << matched.status() << '\n';
+    if (trouble.localises) {
+      const auto matched = Localize();
+      figures_->AtLeast(trouble.name + "_localises", matched.value_or(0), 0.5);
+      if (!matched.ok()) std::cerr << matched.status() << '\n';
+    }
     if (trouble.deletes) {
       figures_->Holds(trouble.name + "_deletes", DeleteOne(calm_, kSpare).ok());
     }
@@ -167,6 +171,22 @@ void CheckBadDisk(const Programs& programs, Figures* figures) {
     trial.Run(Controlled(control, fault, absl::StatusCode::kUnavailable));
     trial.Stop(fault);
   }
+}
+
+void CheckLostFile(const Programs& programs, Figures* figures) {
+  const TemporaryFolder folder;
+  const std::string file = folder.File("data") + "/homing.db";
+  WriteFiles(folder.File("data"), {});
+  Trial trial(programs, folder.File("data"), "", figures);
+  if (!trial.Start()) return figures->Failed("replaced_file", "no server");
+  Trouble replaced{.name = "replaced_file", .begin = {}, .end = {}, .localises = false};
+  replaced.begin = [file] {
+    std::filesystem::rename(file, file + ".away");
+    std::filesystem::copy_file(file + ".away", file);
+  };
+  replaced.end = [file] { std::filesystem::rename(file + ".away", file); };
+  trial.Run(replaced);
+  trial.Stop("replaced_file");
 }
 
 }  // namespace homing::faults

@@ -1,6 +1,6 @@
-// usage: homing_faults SERVER FAULTY_DISK [--quick] [--only kill|power|full|bad|leaks|soak] [--seed
-// N]
-//                      [--soak MINUTES] [--small-disk FOLDER]
+// usage: homing_faults SERVER FAULTY_DISK [--quick] [--seed N] [--soak MINUTES]
+//                      [--only kill|power|full|bad|lost|sockets|memory|leaks|soak]
+//                      [--small-disk FOLDER]
 #include <cstring>
 #include <random>
 
@@ -28,6 +28,9 @@ void Run(const Arguments& a, homing::faults::Figures* figures) {
   if (wanted("power")) CheckKills(a.programs, a.quick ? 10 : 50, true, a.seed + 1, figures);
   if (wanted("full")) CheckFullDisk(a.programs, a.small_disk, figures);
   if (wanted("bad")) CheckBadDisk(a.programs, figures);
+  if (wanted("lost")) CheckLostFile(a.programs, figures);
+  if (wanted("sockets")) CheckSockets(a.programs, figures);
+  if (wanted("memory")) CheckMemory(a.programs, figures);
   if (wanted("leaks") && a.valgrind && !a.quick) CheckLeaks(a.programs, figures);
   if (a.soak_minutes > 0 && wanted("soak")) {
     CheckSoak(a.programs, a.soak_minutes, a.robots, figures);

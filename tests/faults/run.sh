@@ -1,6 +1,6 @@
 #!/bin/sh
 # The faults that the server must survive, a line each: name figure bound ok|short. Exit code 1 if any is short.
-# usage: sh tests/faults/run.sh [--quick] [--soak MINUTES] [--only kill|power|full|bad|leaks|soak] [--seed N]
+# usage: sh tests/faults/run.sh [--quick] [--soak MINUTES] [--only kill|power|full|bad|lost|sockets|memory|leaks|soak] [--seed N]
 # Fuzzing has lines of the same form: sh tests/fuzz/run.sh.
 # HOMING_PRESET (default dev) names the CMake preset. As root the full disk is a real one, of 24 MiB.
 set -eu

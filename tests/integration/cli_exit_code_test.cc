@@ -83,6 +83,23 @@ TEST_F(CliExitCodeTest, AnUnreachableServerIsThreeAndNamed) {
   }
 }
 
+// As by nss-mdns: the name is in no DNS.
+TEST_F(CliExitCodeTest, NamesAreResolvedAsByOtherPrograms) {
+  StartServer();
+  std::ofstream(Path("hosts")) << "127.0.0.1 base.local\n";
+  const auto run = [&](std::vector<std::string> command) {
+    command.insert(command.begin(), {"/usr/bin/env", "LD_PRELOAD=libnss_wrapper.so",
+                                     "NSS_WRAPPER_HOSTS=" + Path("hosts")});
+    return Run(command);
+  };
+  if (run({"getent", "hosts", "base.local"}).code != 0) {
+    GTEST_SKIP() << "SKIPPED: libnss-wrapper is not installed";
+  }
+  const std::string port = address_.substr(address_.rfind(':'));
+  const Ran ran = run({HOMING_PROGRAM, "--server", "base.local" + port, "journeys", "list"});
+  EXPECT_EQ(ran.code, 0) << ran.errors;
+}
+
 TEST_F(CliExitCodeTest, AnUnknownJourneyIsOne) {
   StartServer();
   for (const auto& arguments : std::vector<std::vector<std::string>>{

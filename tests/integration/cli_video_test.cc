@@ -1,5 +1,7 @@
 // Videos as disks and cameras leave them.
 #include <gmock/gmock.h>
+#include <signal.h>
+#include <sys/stat.h>
 
 #include <filesystem>
 #include <fstream>
@@ -58,6 +60,22 @@ TEST_P(HoleTest, IsReportedAndNotTheEnd) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Formats, HoleTest, ::testing::Values("avi", "mkv", "mov"));
+
+// A camera is known by its first frames: it has no end, and Ctrl-C may come soon.
+TEST_F(CliVideoTest, ACameraIsRecordedFromItsFirstFramesOn) {
+  Write(Path("camera.mjpeg"), 60, {320, 240});
+  ASSERT_LT(std::filesystem::file_size(Path("camera.mjpeg")), 1U << 20);
+  ASSERT_EQ(::mkfifo(Path("pipe").c_str(), 0600), 0);
+  Program camera(
+      {"/bin/sh", "-c",
+       "{ cat '" + Path("camera.mjpeg") + "'; exec sleep 100; } >'" + Path("pipe") + "'"});
+  Program recording(Command({"--json", "record", "--journey", kJourney, "--left", Path("pipe")}));
+  for (int i = 0; i < 20; ++i) ASSERT_TRUE(recording.ReadLine()) << recording.Stderr();
+  recording.Signal(SIGINT);
+  EXPECT_EQ(recording.Wait(), 0) << recording.Stderr();
+  EXPECT_EQ(Shown()["state"], "FINISHED");
+  EXPECT_GE(std::stoi(Shown()["step_count"].dump()), 18);
+}
 
 TEST_F(CliVideoTest, OneThatEndsTooEarlyIsAnErrorAndTheJourneyNotFinished) {
   const std::string path = Path("cut.avi");

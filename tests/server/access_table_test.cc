@@ -2,7 +2,6 @@
 #include <google/protobuf/descriptor.h>
 
 #include <chrono>
-#include <filesystem>
 #include <fstream>
 #include <thread>
 
@@ -248,12 +247,23 @@ TEST_P(AccessTableTest, ATokenTakenAwayEndsTheStreamThatUsesIt) {
               GrpcStatusIs(grpc::StatusCode::UNAUTHENTICATED, HasSubstr("token")));
 }
 
-TEST_P(AccessTableTest, ATokenFileOfNoBytesTakesNoTokenAway) {
-  std::ofstream(options_.tokens, std::ios::trunc).flush();
-  std::filesystem::last_write_time(
-      options_.tokens, std::filesystem::file_time_type::clock::now() - std::chrono::hours(1));
+TEST_P(AccessTableTest, AnEmptyFileTakesNoTokenAndNoRoleAway) {
+  for (const char* text : {"", "\n", "# nothing\n"}) {
+    std::ofstream(options_.tokens, std::ios::trunc) << text;
+    std::ofstream(options_.roles, std::ios::trunc) << text;
+    server_->Reload();
+    EXPECT_THAT(As("robots/owner").Call(Rpc::kGetJourney, kPrivate), IsGrpcOk()) << text;
+    EXPECT_THAT(As("robots/banned").Call(Rpc::kGetJourney, kFleet),
+                GrpcStatusIs(grpc::StatusCode::PERMISSION_DENIED, HasSubstr("banned")))
+        << text;
+  }
+}
+
+TEST_P(AccessTableTest, AReloadThatIsAskedForReadsAFileThatWasJustWritten) {
+  std::ofstream(options_.tokens, std::ios::trunc) << "[tokens]\n";
   server_->Reload();
-  EXPECT_THAT(As("robots/owner").Call(Rpc::kGetJourney, kPrivate), IsGrpcOk());
+  EXPECT_THAT(As("robots/owner").Call(Rpc::kGetJourney, kPrivate),
+              GrpcStatusIs(grpc::StatusCode::UNAUTHENTICATED, HasSubstr("token")));
 }
 
 TEST_P(AccessTableTest, SecretsAreNotInTheMetrics) {

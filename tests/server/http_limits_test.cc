@@ -109,6 +109,23 @@ TEST_F(HttpLimitsTest, ManySlowClientsOfOneAddressLeaveRoomForOthers) {
   EXPECT_EQ(open, 0);
 }
 
+// A request may take five seconds.
+TEST_F(HttpLimitsTest, HalfRequestsDoNotDelayTheEndOfTheServer) {
+  options_.drain_ms = 100;
+  StartServer();
+  std::vector<RawClient> slow;
+  for (int i = 0; i < 3; ++i) {
+    slow.emplace_back(server_->metrics_address(), "127.0.0.1");
+    ASSERT_TRUE(slow.back().Send("GET /healthz HTTP/1.1\r\nX: "));
+  }
+  RawClient idle(server_->metrics_address(), "127.0.0.1");
+  ASSERT_TRUE(idle.Send(kHealth));
+  ASSERT_THAT(idle.Receive(std::chrono::seconds(5)), HasSubstr("200 OK"));
+  const auto begin = std::chrono::steady_clock::now();
+  server_->Drain();
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::milliseconds(3500));
+}
+
 TEST_F(HttpLimitsTest, AHandshakeHasAnEnd) {
   CertificateOrder order;
   order.folder = folder_.File("pki");

@@ -8,6 +8,7 @@
 
 #include "homing/image/frame.h"
 #include "tests/server/server_fixture.h"
+#include "tests/support/journey_file.h"
 #include "tests/support/status_matchers.h"
 
 namespace homing::server {
@@ -162,6 +163,57 @@ TEST_F(LimitsTest, FilesBeingImportedShareTheMemory) {
   ExpectExhausted(Import("robots/r/journeys/copy", file, 1 << 20), "IMPORT_MEMORY");
   EXPECT_THAT(Import("robots/r/journeys/copy", file.substr(0, 1 << 20), 1 << 20),
               GrpcStatusIs(grpc::StatusCode::INVALID_ARGUMENT, HasSubstr("journey file")));
+}
+
+TEST_F(LimitsTest, FilesBeingExportedShareTheMemory) {
+  const std::string file = test::JourneyFile(300'000, 2);
+  options_.limits.memory_quota = static_cast<std::int64_t>(file.size() * 3 / 2);
+  Restart();
+  ASSERT_THAT(Import("robots/r/journeys/large", file, 1 << 20), IsGrpcOk());
+  v1::ExportJourneyRequest request;
+  request.set_name("robots/r/journeys/large");
+  v1::ExportJourneyResponse response;
+  // Reads a first chunk, and no more.
+  grpc::ClientContext slow_context;
+  const auto slow = journeys_->ExportJourney(&slow_context, request);
+  ASSERT_TRUE(slow->Read(&response));
+  const auto read_all = [&] {
+    grpc::ClientContext context;
+    const auto stream = journeys_->ExportJourney(&context, request);
+    while (stream->Read(&response)) {
+    }
+    return stream->Finish();
+  };
+  ExpectExhausted(read_all(), "EXPORT_MEMORY");
+  slow_context.TryCancel();
+  while (slow->Read(&response)) {
+  }
+  EXPECT_EQ(slow->Finish().error_code(), grpc::StatusCode::CANCELLED);
+  // The server sees the cancellation a moment later; a test that hangs is ended by the runner.
+  while (!read_all().ok()) {
+  }
+  EXPECT_EQ(Export("robots/r/journeys/large"), file);
+}
+
+TEST_F(LimitsTest, StreamsThatLocaliseShareTheMemory) {
+  options_.limits.memory_quota = 16 << 20;
+  Restart();
+  constexpr char kLong[] = "robots/r/journeys/long";
+  ASSERT_THAT(Import(kLong, test::JourneyFile(70'000, 0), 1 << 20), IsGrpcOk());
+  Localizing first(homing_.get(), LocalizeOn(kLong));
+  first.Localize(test::FlowAt(0));
+  Localizing second(homing_.get(), LocalizeOn(kLong));
+  second.Send(test::FlowAt(0));
+  ExpectExhausted(second.AwaitEnd(), "LOCALIZE_MEMORY");
+  EXPECT_THAT(first.Close(), IsGrpcOk());
+  // The server frees the stream a moment later; a test that hangs is ended by the runner.
+  const auto again = [&] {
+    Localizing stream(homing_.get(), LocalizeOn(kLong));
+    stream.Send(test::FlowAt(0));
+    return stream.Close();
+  };
+  while (!again().ok()) {
+  }
 }
 
 // The answer to GET of `path` at `address`.

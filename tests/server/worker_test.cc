@@ -8,6 +8,7 @@
 #include "proto/wire/observation_conversion.h"
 #include "storage/connection.h"
 #include "tests/server/server_fixture.h"
+#include "tests/support/journey_file.h"
 #include "tests/support/status_matchers.h"
 
 namespace homing::server {
@@ -101,6 +102,39 @@ TEST_F(WorkerTest, TheAnalysisOfARouteThatRepeatsItselfHoldsUpNobody) {
   const auto analysis = std::async(std::launch::async, analyze);
   std::this_thread::sleep_for(std::chrono::duration<double>(0.1 * whole));
   EXPECT_LT(SecondsOf([&] { CallWorker(); }), 0.3 * whole);
+}
+
+TEST_F(WorkerTest, AQueryOfManyFingerprintsHoldsUpNobodyAndEndsWhenNobodyWaits) {
+  constexpr char kLong[] = "robots/r/journeys/long";
+  ASSERT_THAT(Import(kLong, test::JourneyFile(60'000, 2), 1 << 20), IsGrpcOk());
+  v1::MatchLandmarksRequest request;
+  request.set_journey(kLong);
+  request.set_travel(v1::TRAVEL_SAME);
+  request.set_threshold(0);
+  request.set_max_matches(1000);
+  for (v1::MatchView* view : {request.mutable_left(), request.mutable_right()}) {
+    for (int i = 0; i < 100; ++i) {
+      v1::Fingerprint* const seen = view->mutable_fingerprints()->add_fingerprints();
+      seen->set_x(101 + static_cast<float>(i) / 40);
+      seen->set_y(81);
+      seen->set_count(40);
+    }
+  }
+  const auto match = [&](std::chrono::duration<double> most) {
+    grpc::ClientContext context;
+    context.set_deadline(std::chrono::system_clock::now() +
+                         std::chrono::duration_cast<std::chrono::milliseconds>(most));
+    v1::MatchLandmarksResponse response;
+    return homing_->MatchLandmarks(&context, request, &response);
+  };
+  const double whole = SecondsOf([&] { EXPECT_THAT(match(std::chrono::minutes(5)), IsGrpcOk()); });
+  const auto running = std::async(std::launch::async, match, std::chrono::minutes(5));
+  std::this_thread::sleep_for(std::chrono::duration<double>(0.1 * whole));
+  EXPECT_LT(SecondsOf([&] { CallWorker(); }), 0.4 * whole);
+  running.wait();
+  EXPECT_THAT(match(std::chrono::duration<double>(0.1 * whole)),
+              GrpcStatusIs(grpc::StatusCode::DEADLINE_EXCEEDED, HasSubstr("")));
+  EXPECT_LT(SecondsOf([&] { StartServer(); }), 0.5 * whole);
 }
 
 TEST_F(WorkerTest, RobotsGoHomeWhileTheStoreAcceptsNoWrites) {

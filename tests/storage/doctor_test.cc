@@ -117,6 +117,36 @@ TEST_F(DoctorTest, OneDamagedJourneyDoesNotTakeTheOthersAlong) {
   EXPECT_THAT(*store->ListJourneys("robots/", "", 100), SizeIs(kJourneys - 1));
 }
 
+TEST_F(DoctorTest, ValuesThatNoServerWritesAreDamage) {
+  const std::string original = path_ + ".original";
+  std::filesystem::copy_file(path_, original);
+  for (const char* change :
+       {"UPDATE journeys SET name = 'text' WHERE journey_id = 3",
+        "UPDATE journeys SET name = 'robots//journeys/x' WHERE journey_id = 3",
+        "UPDATE journeys SET next_sequence = 0 WHERE journey_id = 3",
+        "UPDATE journeys SET create_time_ns = -1 WHERE journey_id = 3",
+        "UPDATE deviation_models SET name = 'm'", "UPDATE deviation_models SET mu = 1e9",
+        "UPDATE deviation_models SET sigma = -1",
+        "UPDATE deviation_models SET observations = observations + 4294967296",
+        "UPDATE deviation_models SET ks_distance = 2", "UPDATE deviation_models SET width = -1",
+        "UPDATE deviation_models SET create_time_ns = -1"}) {
+    std::filesystem::copy_file(original, path_, std::filesystem::copy_options::overwrite_existing);
+    {
+      auto connection = Connection::Open(path_, Connection::Access::kReadWrite, 100);
+      ASSERT_THAT((*connection)->Run([&] {
+        (*connection)->Execute("PRAGMA ignore_check_constraints = 1");
+        (*connection)->Execute(change);
+        return absl::OkStatus();
+      }),
+                  IsOk())
+          << change;
+    }
+    const auto diagnosis = Examine(path_);
+    ASSERT_THAT(diagnosis, IsOk()) << change;
+    EXPECT_EQ(CountDamaged(diagnosis->journeys) + CountDamaged(diagnosis->models), 1) << change;
+  }
+}
+
 TEST_F(DoctorTest, ATruncatedFileIsReportedAndCompleteJourneysAreSaved) {
   const auto size = std::filesystem::file_size(path_);
   for (const std::uintmax_t share : {9, 7, 5, 3}) {

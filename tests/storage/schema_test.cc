@@ -89,7 +89,7 @@ TEST(Schema, FlowProfilesOfAnOlderVersionStay) {
                         absl::BytesToHexString(EncodeProfile(*profile)) + "')");
     }
   }
-  Execute(path, "UPDATE journeys SET step_count = 13");
+  Execute(path, "UPDATE journeys SET step_count = 13, next_sequence = 13");
   const auto map = OpenOrDie(folder.Database())->LoadMap("robots/old/journeys/1");
   ASSERT_THAT(map, IsOk());
   EXPECT_TRUE(SameMap(*map, MapOf(OddSettings(), steps)));

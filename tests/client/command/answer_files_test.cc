@@ -1,9 +1,15 @@
 #include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include <filesystem>
+#include <fstream>
+#include <future>
 
 #include "client/bag/bag.h"
 #include "client/camera_observations.h"
 #include "client/command/answer_bag.h"
 #include "client/command/answer_table.h"
+#include "client/command/growing_file.h"
 #include "tests/support/status_matchers.h"
 #include "tests/support/temporary_folder.h"
 
@@ -88,12 +94,40 @@ TEST(AnswerBagTest, OfSentFlowThereAreNoImages) {
   EXPECT_FALSE(counts.contains("/homing/right/annotations"));
 }
 
-TEST(AnswerBagTest, ReplacesRegularFilesOnly) {
-  TemporaryFolder folder;
-  EXPECT_THAT(AnswerBag::Open("/dev/null", FlowOptions()),
-              StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("regular")));
-  EXPECT_THAT(AnswerBag::Open(folder.File("no/folder.mcap"), FlowOptions()),
-              StatusIs(absl::StatusCode::kPermissionDenied, HasSubstr("No such file")));
+TEST(GrowingFileTest, DevicesAndLinksStayAndReadOnlyFilesAreRefused) {
+  const TemporaryFolder folder;
+  EXPECT_THAT(OpenGrowingFile("/dev/null"), IsOk());
+  EXPECT_TRUE(std::filesystem::is_character_file("/dev/null"));
+  std::filesystem::create_symlink(folder.File("target"), folder.File("link"));
+  EXPECT_THAT(OpenGrowingFile(folder.File("link")), IsOk());
+  EXPECT_TRUE(std::filesystem::is_symlink(folder.File("link")));
+  std::filesystem::permissions(folder.File("target"), std::filesystem::perms::owner_read);
+  EXPECT_THAT(OpenGrowingFile(folder.File("link")),
+              StatusIs(absl::StatusCode::kPermissionDenied, HasSubstr("Permission denied")));
+  EXPECT_THAT(OpenGrowingFile(folder.File("no/folder.csv")),
+              StatusIs(absl::StatusCode::kNotFound, HasSubstr("No such file")));
+}
+
+TEST(GrowingFileTest, APipeIsWrittenIntoOnceItIsRead) {
+  const TemporaryFolder folder;
+  const std::string pipe = folder.File("pipe");
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  std::stop_source stopped;
+  stopped.request_stop();
+  EXPECT_THAT(OpenGrowingFile(pipe, stopped.get_token()),
+              StatusIs(absl::StatusCode::kCancelled, HasSubstr("nobody reads")));
+  auto reader = std::async(std::launch::async, [&] {
+    std::ifstream file(pipe);
+    std::string line;
+    std::getline(file, line);
+    return line;
+  });
+  {
+    auto file = OpenGrowingFile(pipe);
+    ASSERT_THAT(file, IsOk());
+    *file << "an answer\n";
+  }
+  EXPECT_EQ(reader.get(), "an answer");
 }
 
 TEST(AnswerTableTest, ALineHasAValueForEachColumn) {

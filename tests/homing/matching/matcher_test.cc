@@ -12,11 +12,11 @@ namespace {
 using ::testing::HasSubstr;
 
 // A journey of fingerprints at random; landmarks last a few steps.
-JourneyMap RandomMap(std::mt19937_64& engine, double mu) {
+JourneyMap RandomMap(std::mt19937_64& engine, double mu, std::int64_t steps = 60) {
   JourneySettings settings;
   settings.deviation_model.mu = mu;
   JourneyMap map(settings);
-  for (std::int64_t number = 0; number < 60; ++number) {
+  for (std::int64_t number = 0; number < steps; ++number) {
     JourneyStep step{.step = number, .motion = Motion::kMoving, .fingerprints = {}, .profiles = {}};
     auto next = static_cast<std::int32_t>(map.landmarks().size());
     for (const Side side : {Side::kLeft, Side::kRight}) {
@@ -43,10 +43,10 @@ JourneyMap RandomMap(std::mt19937_64& engine, double mu) {
   return map;
 }
 
-SeenSides RandomSeen(std::mt19937_64& engine) {
+SeenSides RandomSeen(std::mt19937_64& engine, std::size_t most = 2) {
   SeenSides seen;
   for (auto& side : seen) {
-    side.resize(engine() % 3);
+    side.resize(engine() % (most + 1));
     for (SeenLandmark& landmark : side) {
       landmark.x = static_cast<float>(engine() % 40);
       landmark.y = static_cast<float>(engine() % 30);
@@ -127,6 +127,38 @@ TEST(MatcherTest, AgreesWithAScanOfEverything) {
     }
   }
   EXPECT_GT(found, 1000u);
+}
+
+// More pairs than are kept at a time.
+TEST(MatcherTest, AgreesWithAScanOfEverythingForManyPairs) {
+  const std::string name = "robots/a/journeys/1";
+  std::mt19937_64 engine(5);
+  const JourneyMap map = RandomMap(engine, 2.2, 4000);
+  const JourneyRef journey{&name, &map};
+  SeenSides seen = RandomSeen(engine, 100);
+  while (seen[0].size() < 90 || seen[1].size() < 90) seen = RandomSeen(engine, 100);
+  Matcher matcher;
+  for (const MatchOptions options : {MatchOptions{1000, 0}, MatchOptions{1000, 0.2}}) {
+    ExpectSame(matcher.Find({&journey, 1}, seen, options),
+               NaiveMatches({&journey, 1}, seen, options));
+  }
+}
+
+class Cancelled : public Cancellation {
+ public:
+  bool IsCancelled() const override { return true; }
+};
+
+TEST(MatcherTest, EndsWhenItIsCancelled) {
+  const std::string name = "robots/a/journeys/1";
+  std::mt19937_64 engine(5);
+  const JourneyMap map = RandomMap(engine, 2.2);
+  const JourneyRef journey{&name, &map};
+  const SeenSides seen = RandomSeen(engine, 10);
+  const Cancelled cancelled;
+  Matcher matcher;
+  EXPECT_TRUE(matcher.Find({&journey, 1}, seen, {10, 0}, &cancelled).empty());
+  EXPECT_FALSE(matcher.Find({&journey, 1}, seen, {10, 0}).empty());
 }
 
 TEST(MatcherTest, BestWithinAnIntervalIsTheBestOfItsSteps) {

@@ -1,9 +1,12 @@
 // Files of tokens and of roles.
 #include <sys/stat.h>
 
+#include <filesystem>
 #include <fstream>
+#include <future>
 #include <sstream>
 
+#include "server/access/certificate_folder.h"
 #include "server/access/identity.h"
 #include "server/access/private_file.h"
 #include "server/access/role_book.h"
@@ -78,6 +81,69 @@ TEST_F(IdentityFilesTest, FilesWithSecretsAreTheirOwnersAlone) {
   EXPECT_EQ(Read(path), "secret");
   EXPECT_THAT(WritePrivateFile(folder_.File("none/secret"), "x"),
               StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("cannot be written")));
+}
+
+TEST_F(IdentityFilesTest, LinksAndPipesAreKept) {
+  std::ofstream(folder_.File("target")) << "old";
+  std::filesystem::create_symlink(folder_.File("target"), folder_.File("link"));
+  ASSERT_THAT(WritePrivateFile(folder_.File("link"), "secret"), IsOk());
+  EXPECT_TRUE(std::filesystem::is_symlink(folder_.File("link")));
+  EXPECT_EQ(Read(folder_.File("target")), "secret");
+  const std::string pipe = folder_.File("pipe");
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  auto reader = std::async(std::launch::async, [&] { return Read(pipe); });
+  ASSERT_THAT(WritePrivateFile(pipe, "secret"), IsOk());
+  EXPECT_EQ(reader.get(), "secret");
+  EXPECT_TRUE(std::filesystem::is_fifo(pipe));
+}
+
+TEST_F(IdentityFilesTest, ATokenIsAddedToAnyFileThatCanBeRead) {
+  const std::string line = "\"" + ToText(HashToken("old")) + "\" = \"robots/old\"";
+  for (const std::string& text : {std::string(), std::string("\n"), std::string("# tokens"),
+                                  "[tokens]\n" + line, "[tokens]\r\n" + line + "\r\n"}) {
+    const std::string path = Write(text);
+    ASSERT_THAT(AddToken(path, "robots/r1", HashToken("new")), IsOk()) << text;
+    const auto book = TokenBook::Read(path);
+    ASSERT_THAT(book, IsOk()) << text;
+    EXPECT_EQ(book->Find("new"), "robots/r1") << text;
+    EXPECT_EQ(book->Find("old").has_value(), text.find("old") != std::string::npos) << text;
+  }
+}
+
+TEST_F(IdentityFilesTest, NewIdentitiesDoNotBeginAsPathsOrFlagsDo) {
+  for (const char* bad : {".", "..", ".r", "-r", "-"}) {
+    for (const std::string kind : {"robots/", "operators/"}) {
+      EXPECT_THAT(AddToken(folder_.File("tokens.toml"), kind + bad, HashToken("t")),
+                  StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("identity: ")))
+          << kind << bad;
+    }
+    CertificateOrder order;
+    order.folder = folder_.File("pki");
+    order.robots = {"good", bad};
+    EXPECT_THAT(MakeCertificates(order),
+                StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("robot: ")));
+    order.robots.clear();
+    order.operators = {bad};
+    EXPECT_THAT(MakeCertificates(order),
+                StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("operator: ")));
+  }
+  EXPECT_FALSE(std::filesystem::exists(folder_.File("tokens.toml")));
+  EXPECT_FALSE(std::filesystem::exists(folder_.File("pki")));
+  // One of an older version still logs in.
+  const std::string old = "[tokens]\n\"" + ToText(HashToken("t")) + "\" = \"robots/.r\"\n";
+  EXPECT_EQ(TokenBook::Read(Write(old))->Find("t"), "robots/.r");
+  EXPECT_EQ(IdentityOfUris({"homing:robots/.r"}).value(), "robots/.r");
+}
+
+TEST_F(IdentityFilesTest, AnEmptyFileIsNoTable) {
+  for (const char* text : {"", "\n", "  \n", "# all roles were here\n"}) {
+    EXPECT_FALSE(TokenBook::Read(Write(text))->has_table()) << text;
+    EXPECT_THAT(RoleBook::Read(Write(text)),
+                StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("must hold [roles]")))
+        << text;
+  }
+  EXPECT_TRUE(TokenBook::Read(Write("[tokens]\n"))->has_table());
+  EXPECT_THAT(RoleBook::Read(Write("[roles]\n")), IsOk());
 }
 
 TEST_F(IdentityFilesTest, ABadFileOfTokensIsRefusedWithoutRepeatingSecrets) {

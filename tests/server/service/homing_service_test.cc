@@ -1,4 +1,5 @@
 // Queries: wildcards, changed sides, wrong questions, one-shot matching.
+#include <limits>
 #include <set>
 
 #include "homing/flow/observation.h"
@@ -134,6 +135,19 @@ TEST_F(HomingServiceTest, WrongQueriesAreInvalid) {
   config = LocalizeOn(kJourney, static_cast<v1::Travel>(9));
   EXPECT_THAT(Localizing(homing_.get(), config).AwaitEnd(),
               GrpcStatusIs(grpc::StatusCode::INVALID_ARGUMENT, HasSubstr("travel")));
+  RecordFlow(0, 20);
+  config = LocalizeOn(kJourney);
+  config.mutable_prior()->set_journey(kJourney);
+  config.mutable_prior()->set_direction(static_cast<v1::Direction>(9));
+  EXPECT_THAT(
+      Localizing(homing_.get(), config).AwaitEnd(),
+      GrpcStatusIs(grpc::StatusCode::INVALID_ARGUMENT, HasSubstr("config.prior.direction: 9")));
+  config.mutable_prior()->clear_direction();
+  config.mutable_prior()->set_path_offset(std::numeric_limits<double>::quiet_NaN());
+  Localizing unclear(homing_.get(), config);
+  unclear.Send(test::FlowAt(0));
+  EXPECT_THAT(unclear.AwaitEnd(), GrpcStatusIs(grpc::StatusCode::INVALID_ARGUMENT,
+                                               HasSubstr("config.prior.path_offset: nan")));
 }
 
 // Two frames, their flow vectors and their fingerprints are one question in three forms.
