@@ -1,10 +1,10 @@
 #include "client/command/growing_file.h"
 
 #include <cerrno>
-#include <cstring>
 #include <filesystem>
 
 #include "absl/strings/str_cat.h"
+#include "client/file/output_file.h"
 
 namespace homing::client {
 
@@ -14,11 +14,9 @@ absl::StatusOr<std::ofstream> OpenGrowingFile(const std::string& path) {
   if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
     return absl::InvalidArgumentError(absl::StrCat(path, " is not a regular file"));
   }
+  errno = 0;
   std::ofstream file(path, std::ios::binary | std::ios::trunc);
-  if (!file) {
-    return absl::PermissionDeniedError(
-        absl::StrCat("cannot write ", path, ": ", std::strerror(errno)));
-  }
+  if (!file) return CannotWrite(path, errno);
   return file;
 }
 

@@ -9,7 +9,7 @@
 
 namespace homing::client {
 
-// Replaces the file. INVALID_ARGUMENT: it is not a regular file; PERMISSION_DENIED.
+// Replaces the file. INVALID_ARGUMENT: it is not a regular file; else the error of the system.
 absl::StatusOr<std::ofstream> OpenGrowingFile(const std::string& path);
 
 }  // namespace homing::client

@@ -93,7 +93,7 @@ TEST(AnswerBagTest, ReplacesRegularFilesOnly) {
   EXPECT_THAT(AnswerBag::Open("/dev/null", FlowOptions()),
               StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("regular")));
   EXPECT_THAT(AnswerBag::Open(folder.File("no/folder.mcap"), FlowOptions()),
-              StatusIs(absl::StatusCode::kPermissionDenied, HasSubstr("No such file")));
+              StatusIs(absl::StatusCode::kNotFound, HasSubstr("No such file")));
 }
 
 TEST(AnswerTableTest, ALineHasAValueForEachColumn) {
