@@ -116,6 +116,9 @@ TEST(BagSourceTest, SaysWhatIsWrongWithAFile) {
   WriteFile(folder.File("text.bag"), "some text");
   EXPECT_THAT(OpenBagSource({folder.File("text.bag"), ""}, Side::kLeft),
               StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("neither")));
+  WriteFile(folder.File("empty.bag"), "");
+  EXPECT_THAT(OpenBagSource({folder.File("empty.bag"), ""}, Side::kLeft),
+              StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("is empty")));
   WriteFile(folder.File("old.bag"), "#ROSBAG V1.2\n");
   EXPECT_THAT(OpenBagSource({folder.File("old.bag"), ""}, Side::kLeft),
               StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("old version")));
@@ -124,6 +127,19 @@ TEST(BagSourceTest, SaysWhatIsWrongWithAFile) {
               StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("zstd -d")));
   EXPECT_THAT(OpenBagSource({folder.File(""), ""}, Side::kLeft),
               StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("regular file")));
+}
+
+// As rosbag2 leaves them.
+TEST(BagSourceTest, AFolderWithOneBagIsThatBag) {
+  TemporaryFolder folder;
+  std::filesystem::create_directory(folder.File("drive"));
+  WriteFile(folder.File("drive/metadata.yaml"), "rosbag2_bagfile_information:");
+  std::filesystem::copy_file(BagPath("rosbag2.db3"), folder.File("drive/drive_0.db3"));
+  EXPECT_THAT(OpenCameras(folder.File("drive"), folder.File("drive")), IsOk());
+  std::filesystem::copy_file(BagPath("rosbag2.db3"), folder.File("drive/drive_1.db3"));
+  EXPECT_THAT(OpenCameras(folder.File("drive"), "").status(),
+              StatusIs(absl::StatusCode::kInvalidArgument,
+                       AllOf(HasSubstr("2 bags"), HasSubstr("drive_0.db3"))));
 }
 
 TEST(BagSourceTest, OneTopicIsNotForBothCameras) {
