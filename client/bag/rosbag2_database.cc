@@ -3,10 +3,12 @@
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <sqlite3.h>
 
+#include <filesystem>
 #include <map>
 
 #include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
+#include "absl/strings/str_replace.h"
 #include "client/bag/bag_file.h"
 #include "client/bag/byte_reader.h"
 #include "client/bag/decompression.h"
@@ -20,11 +22,25 @@ constexpr char kZstdMagic[] = "\x28\xb5\x2f\xfd";
 constexpr std::uint64_t kHeadBytes = 100;
 constexpr std::uint64_t kPageCountOffset = 28;
 
+// The file as one that does not change: SQLite then writes nothing beside it, which a read-only
+// folder would not allow. Not so while files beside it show that somebody writes to it.
+std::string UriOf(const std::string& path) {
+  std::error_code error;
+  const bool in_use = std::filesystem::exists(path + "-wal", error) ||
+                      std::filesystem::exists(path + "-journal", error);
+  const std::string whole = std::filesystem::absolute(path, error).string();
+  return absl::StrCat("file://",
+                      absl::StrReplaceAll(whole, {{"%", "%25"}, {"?", "%3f"}, {"#", "%23"}}),
+                      in_use ? "" : "?immutable=1");
+}
+
 class Rosbag2Database : public Bag {
  public:
   // Throws SQLite::Exception.
   Rosbag2Database(const std::string& path, const BagLimits& limits)
-      : path_(path), limits_(limits), database_(path, SQLite::OPEN_READONLY) {
+      : path_(path),
+        limits_(limits),
+        database_(UriOf(path), SQLite::OPEN_READONLY | SQLite::OPEN_URI) {
     sqlite3_limit(database_.getHandle(), SQLITE_LIMIT_LENGTH, static_cast<int>(limits.max_chunk));
     // The file is foreign: its triggers and views must not run functions. With writable_schema,
     // SQLite also opens a file whose end is missing; it is opened for reading only.

@@ -129,6 +129,19 @@ TEST(BagSourceTest, SaysWhatIsWrongWithAFile) {
               StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("regular file")));
 }
 
+// rosbag2 can record with a write-ahead log: numbers 2 in the file's head. The name is no URI.
+TEST(BagSourceTest, ADatabaseWithALogNeedsNoFileBesideIt) {
+  TemporaryFolder folder;
+  std::string bytes = ReadFile(BagPath("rosbag2.db3"));
+  bytes[18] = bytes[19] = 2;
+  WriteFile(folder.File("a?b%20#c.db3"), bytes);
+  const auto source = OpenBagSource({folder.File("a?b%20#c.db3"), ""}, Side::kLeft);
+  ASSERT_THAT(source, IsOk());
+  ASSERT_THAT((*source)->Next(), IsOk());
+  const std::filesystem::directory_iterator files(folder.File(""));
+  EXPECT_EQ(std::distance(begin(files), end(files)), 1);
+}
+
 // As rosbag2 leaves them.
 TEST(BagSourceTest, AFolderWithOneBagIsThatBag) {
   TemporaryFolder folder;
