@@ -9,8 +9,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     for (int i = 0; i < 20; ++i) {
       const auto frame = (*source)->Next();
       if (!frame.ok() || !frame->has_value()) break;
-      homing::fuzz::Require((*frame)->data.size() ==
-                            static_cast<std::size_t>((*frame)->width) * (*frame)->height);
+      const auto pixels = std::int64_t{(*frame)->width} * (*frame)->height;
+      homing::fuzz::Require(static_cast<std::int64_t>((*frame)->data.size()) == pixels);
     }
     homing::fuzz::Require(!(*source)->live());
     if (!(*source)->Seek(0)) return 0;
