@@ -2,6 +2,7 @@
 
 #include <yaml-cpp/yaml.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
@@ -37,45 +38,47 @@ absl::StatusOr<std::string> ReadText(const std::string& path) {
   return text;
 }
 
-// Both kinds of file as one kind of tree. Aliases of YAML can make a small file a huge tree.
+// Both kinds of file as one kind of tree. Aliases of YAML can make a small file a huge or an
+// endless tree.
 class TreeBuilder {
  public:
-  Json FromYaml(const YAML::Node& node) {
-    Count();
+  Json FromYaml(const YAML::Node& node, int depth = 0) {
+    Count(depth);
     Json tree;
     if (node.IsScalar()) return FromText(node.Scalar());
     if (node.IsSequence()) {
-      for (const auto& child : node) tree.push_back(FromYaml(child));
+      for (const auto& child : node) tree.push_back(FromYaml(child, depth + 1));
     }
     if (node.IsMap()) {
-      for (const auto& child : node) tree[child.first.Scalar()] = FromYaml(child.second);
+      for (const auto& child : node) tree[child.first.Scalar()] = FromYaml(child.second, depth + 1);
     }
     return tree;
   }
 
-  Json FromXml(const cv::FileNode& node) {
-    Count();
+  Json FromXml(const cv::FileNode& node, int depth = 0) {
+    Count(depth);
     Json tree;
     if (node.isString()) return FromText(node.string());
     if (node.isInt() || node.isReal()) return node.real();
     if (node.isSeq()) {
-      for (const auto& child : node) tree.push_back(FromXml(child));
+      for (const auto& child : node) tree.push_back(FromXml(child, depth + 1));
     }
     if (node.isMap()) {
-      for (const auto& child : node) tree[child.name()] = FromXml(child);
+      for (const auto& child : node) tree[child.name()] = FromXml(child, depth + 1);
     }
     return tree;
   }
 
  private:
   static constexpr int kMostNodes = 100'000;
+  static constexpr int kMostDepth = 100;
 
   static Json FromText(const std::string& text) {
     double number = 0;
     return absl::SimpleAtod(text, &number) ? Json(number) : Json(text);
   }
-  void Count() {
-    if (++count_ > kMostNodes) throw std::length_error("too many nodes");
+  void Count(int depth) {
+    if (++count_ > kMostNodes || depth > kMostDepth) throw std::length_error("too many nodes");
   }
 
   int count_ = 0;
@@ -85,6 +88,11 @@ class TreeBuilder {
 Json ReadTree(const std::string& text) {
   const std::size_t first = text.find_first_not_of(" \t\r\n");
   if (first != std::string::npos && text[first] == '<') {
+    // OpenCV's parser calls itself for each element inside another.
+    constexpr std::ptrdiff_t kMostTags = 2000;
+    if (std::count(text.begin(), text.end(), '<') > kMostTags) {
+      throw std::length_error("too many elements");
+    }
     const cv::FileStorage file(text, cv::FileStorage::READ | cv::FileStorage::MEMORY);
     return TreeBuilder().FromXml(file.root());
   }
