@@ -7,13 +7,14 @@
 #include <cstring>
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <opencv2/core.hpp>
+#include <pugixml.hpp>
 #include <stdexcept>
 #include <vector>
 
 #include "absl/strings/match.h"
 #include "absl/strings/numbers.h"
 #include "absl/strings/str_cat.h"
+#include "absl/strings/str_split.h"
 #include "client/bag/camera_info.h"
 #include "homing/base/range_check.h"
 #include "homing/base/status_macros.h"
@@ -55,16 +56,20 @@ class TreeBuilder {
     return tree;
   }
 
-  Json FromXml(const cv::FileNode& node, int depth = 0) {
+  // Values in a row are a list.
+  Json FromXml(const pugi::xml_node& node, int depth = 0) {
     Count(depth);
     Json tree;
-    if (node.isString()) return FromText(node.string());
-    if (node.isInt() || node.isReal()) return node.real();
-    if (node.isSeq()) {
-      for (const auto& child : node) tree.push_back(FromXml(child, depth + 1));
+    for (const pugi::xml_node& child : node.children()) {
+      if (child.type() == pugi::node_element) tree[child.name()] = FromXml(child, depth + 1);
     }
-    if (node.isMap()) {
-      for (const auto& child : node) tree[child.name()] = FromXml(child, depth + 1);
+    if (!tree.is_null()) return tree;
+    const std::vector<std::string> values =
+        absl::StrSplit(node.child_value(), absl::ByAnyChar(" \t\r\n"), absl::SkipEmpty());
+    if (values.size() == 1) return FromText(values[0]);
+    for (const std::string& value : values) {
+      Count(depth);
+      tree.push_back(FromText(value));
     }
     return tree;
   }
@@ -88,13 +93,10 @@ class TreeBuilder {
 Json ReadTree(const std::string& text) {
   const std::size_t first = text.find_first_not_of(" \t\r\n");
   if (first != std::string::npos && text[first] == '<') {
-    // OpenCV's parser calls itself for each element inside another.
-    constexpr std::ptrdiff_t kMostTags = 2000;
-    if (std::count(text.begin(), text.end(), '<') > kMostTags) {
-      throw std::length_error("too many elements");
-    }
-    const cv::FileStorage file(text, cv::FileStorage::READ | cv::FileStorage::MEMORY);
-    return TreeBuilder().FromXml(file.root());
+    pugi::xml_document document;
+    const pugi::xml_parse_result parsed = document.load_buffer(text.data(), text.size());
+    if (!parsed) throw std::invalid_argument(parsed.description());
+    return TreeBuilder().FromXml(document.document_element());
   }
   // The first line of OpenCV's files is not YAML.
   const bool opencv = absl::StartsWith(text, "%YAML:");

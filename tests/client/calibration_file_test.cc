@@ -175,6 +175,13 @@ TEST_F(CalibrationFileTest, ReadsXmlOfOpenCv) {
   EXPECT_EQ(camera->distortion, (Distortion{0.125, -0.25, 0.5, -0.75}));
 }
 
+// OpenCV's parser followed a null pointer.
+TEST_F(CalibrationFileTest, ABrokenHeadOfXmlIsRefused) {
+  const std::string text =
+      "<?xml veriosn=" + std::string(16, '\0') + "\xff\"?>\n<opencv_storage>\n<image_width>320</im";
+  EXPECT_THAT(Read(text), StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("c.yaml")));
+}
+
 // Each once overflowed the stack.
 TEST_F(CalibrationFileTest, DeepAndEndlessTreesAreRefused) {
   const auto repeated = [](const std::string& text, int times) {
