@@ -22,7 +22,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     if (count <= 20) {
       const std::vector<std::int64_t> keys = (*source)->keys().values;
       homing::fuzz::Require(keys.size() == static_cast<std::size_t>(count));
-      homing::fuzz::Require(std::is_sorted(keys.begin(), keys.end()) && keys.front() >= 0);
+      homing::fuzz::Require(std::is_sorted(keys.begin(), keys.end()));
+      homing::fuzz::Require(keys.empty() || keys.front() >= 0);
     }
     homing::fuzz::Require((*source)->Seek(count));
     const auto end = (*source)->Next();
