@@ -2,17 +2,19 @@
 
 #include <yaml-cpp/yaml.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <opencv2/core.hpp>
+#include <pugixml.hpp>
 #include <stdexcept>
 #include <vector>
 
 #include "absl/strings/match.h"
 #include "absl/strings/numbers.h"
 #include "absl/strings/str_cat.h"
+#include "absl/strings/str_split.h"
 #include "client/bag/camera_info.h"
 #include "homing/base/range_check.h"
 #include "homing/base/status_macros.h"
@@ -37,45 +39,51 @@ absl::StatusOr<std::string> ReadText(const std::string& path) {
   return text;
 }
 
-// Both kinds of file as one kind of tree. Aliases of YAML can make a small file a huge tree.
+// Both kinds of file as one kind of tree. Aliases of YAML can make a small file a huge or an
+// endless tree.
 class TreeBuilder {
  public:
-  Json FromYaml(const YAML::Node& node) {
-    Count();
+  Json FromYaml(const YAML::Node& node, int depth = 0) {
+    Count(depth);
     Json tree;
     if (node.IsScalar()) return FromText(node.Scalar());
     if (node.IsSequence()) {
-      for (const auto& child : node) tree.push_back(FromYaml(child));
+      for (const auto& child : node) tree.push_back(FromYaml(child, depth + 1));
     }
     if (node.IsMap()) {
-      for (const auto& child : node) tree[child.first.Scalar()] = FromYaml(child.second);
+      for (const auto& child : node) tree[child.first.Scalar()] = FromYaml(child.second, depth + 1);
     }
     return tree;
   }
 
-  Json FromXml(const cv::FileNode& node) {
-    Count();
+  // Values in a row are a list.
+  Json FromXml(const pugi::xml_node& node, int depth = 0) {
+    Count(depth);
     Json tree;
-    if (node.isString()) return FromText(node.string());
-    if (node.isInt() || node.isReal()) return node.real();
-    if (node.isSeq()) {
-      for (const auto& child : node) tree.push_back(FromXml(child));
+    for (const pugi::xml_node& child : node.children()) {
+      if (child.type() == pugi::node_element) tree[child.name()] = FromXml(child, depth + 1);
     }
-    if (node.isMap()) {
-      for (const auto& child : node) tree[child.name()] = FromXml(child);
+    if (!tree.is_null()) return tree;
+    const std::vector<std::string> values =
+        absl::StrSplit(node.child_value(), absl::ByAnyChar(" \t\r\n"), absl::SkipEmpty());
+    if (values.size() == 1) return FromText(values[0]);
+    for (const std::string& value : values) {
+      Count(depth);
+      tree.push_back(FromText(value));
     }
     return tree;
   }
 
  private:
   static constexpr int kMostNodes = 100'000;
+  static constexpr int kMostDepth = 100;
 
   static Json FromText(const std::string& text) {
     double number = 0;
     return absl::SimpleAtod(text, &number) ? Json(number) : Json(text);
   }
-  void Count() {
-    if (++count_ > kMostNodes) throw std::length_error("too many nodes");
+  void Count(int depth) {
+    if (++count_ > kMostNodes || depth > kMostDepth) throw std::length_error("too many nodes");
   }
 
   int count_ = 0;
@@ -85,8 +93,10 @@ class TreeBuilder {
 Json ReadTree(const std::string& text) {
   const std::size_t first = text.find_first_not_of(" \t\r\n");
   if (first != std::string::npos && text[first] == '<') {
-    const cv::FileStorage file(text, cv::FileStorage::READ | cv::FileStorage::MEMORY);
-    return TreeBuilder().FromXml(file.root());
+    pugi::xml_document document;
+    const pugi::xml_parse_result parsed = document.load_buffer(text.data(), text.size());
+    if (!parsed) throw std::invalid_argument(parsed.description());
+    return TreeBuilder().FromXml(document.document_element());
   }
   // The first line of OpenCV's files is not YAML.
   const bool opencv = absl::StartsWith(text, "%YAML:");

@@ -1,6 +1,7 @@
 #!/bin/sh
-# Builds the container image with buildah, without a registry, and tries it with podman: healthy,
-# serves the client of this machine if one is built, SIGTERM ends it with 0. Needs root.
+# Builds the container image with buildah, without a registry, and tries it with podman: at most 120 MB,
+# healthy, serves the client of this machine if one is built, SIGTERM ends it with 0. Its bill of materials
+# is left in build/sbom.cdx.json. Needs root.
 # BASE_TAR names a tar of deploy/base.sh to start from, IMAGE the tag, CLIENT the homing command.
 set -eu
 cd "$(dirname "$0")/.."
@@ -30,7 +31,9 @@ fi
 mkdir -p build
 buildah bud --isolation chroot --pull-never --layers --format docker --build-arg BASE="$base" \
   -f deploy/Dockerfile -t "$image" . >build/image.log 2>&1 || { tail -n 60 build/image.log >&2; exit 1; }
-podman image inspect --format 'Image {{.Size}} bytes' "$image"
+size=$(podman image inspect --format '{{.Size}}' "$image")
+echo "Image $size bytes"
+[ "$size" -le 120000000 ] || { echo "image.sh: it must have at most 120 MB" >&2; exit 1; }
 
 # As compose.yaml runs it, on the host's network; limits cannot be raised above this shell's own.
 # shellcheck disable=SC3045 # dash has -n
@@ -49,6 +52,11 @@ done
 podman exec "$container" /usr/bin/homing-server healthcheck --server "$address" >"$work/health.log" 2>&1 ||
   { cat "$work/health.log" >&2; exit 1; }
 echo "Healthy at $address"
+podman cp "$container:/usr/share/homing/sbom.cdx.json" build/sbom.cdx.json >"$work/cp.log" 2>&1 ||
+  { cat "$work/cp.log" >&2; exit 1; }
+parts=$(python3 -c 'import json, sys; print(len(json.load(sys.stdin)["components"]))' <build/sbom.cdx.json)
+[ "$parts" -gt 50 ] || { echo "image.sh: the bill of materials has only $parts parts" >&2; exit 1; }
+echo "Bill of materials: $parts parts"
 
 if [ -x "$client" ]; then
   "$client" --server "$address" record --journey robots/image/journeys/out \

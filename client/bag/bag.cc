@@ -79,6 +79,7 @@ absl::StatusOr<std::unique_ptr<Bag>> OpenBag(const std::string& path, const BagL
     return absl::InvalidArgumentError(
         absl::StrCat(path, " is a ROS 1 bag of an old version; only 2.0 is read"));
   }
+  if (head.empty()) return absl::InvalidArgumentError(absl::StrCat(path, " is empty"));
   return absl::InvalidArgumentError(absl::StrCat(
       path, " is neither an MCAP file nor a ROS 1 bag nor a database of rosbag2",
       absl::StartsWith(head, "\x28\xb5\x2f\xfd") ? "; decompress it with zstd -d first" : ""));

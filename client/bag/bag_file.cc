@@ -6,23 +6,11 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <cstring>
 #include <utility>
 
 #include "absl/strings/str_cat.h"
 
 namespace homing::client::bag {
-namespace {
-
-absl::Status FileError(const std::string& path, int error) {
-  const std::string text = absl::StrCat(path, ": ", std::strerror(error));
-  if (error == ENOENT || error == ENOTDIR) return absl::NotFoundError(text);
-  if (error == EACCES || error == EPERM) return absl::PermissionDeniedError(text);
-  return absl::UnknownError(text);
-}
-
-}  // namespace
-
 BagFile::BagFile(std::string path, int descriptor, std::uint64_t size)
     : path_(std::move(path)), descriptor_(descriptor), size_(size) {}
 
@@ -45,7 +33,7 @@ BagFile::~BagFile() {
 absl::StatusOr<BagFile> BagFile::Open(const std::string& path) {
   // O_NONBLOCK: opening a pipe without a writer must not wait.
   const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
-  if (descriptor < 0) return FileError(path, errno);
+  if (descriptor < 0) return absl::ErrnoToStatus(errno, path);
   struct stat about {};
   if (::fstat(descriptor, &about) != 0 || !S_ISREG(about.st_mode)) {
     ::close(descriptor);
@@ -65,7 +53,7 @@ absl::StatusOr<std::string> BagFile::Read(std::uint64_t offset, std::uint64_t co
     const ssize_t got = ::pread(descriptor_, bytes.data() + done, bytes.size() - done,
                                 static_cast<off_t>(offset + done));
     if (got < 0 && errno == EINTR) continue;
-    if (got < 0) return FileError(path_, errno);
+    if (got < 0) return absl::ErrnoToStatus(errno, path_);
     if (got == 0) return absl::DataLossError(absl::StrCat(path_, " has become shorter"));
     done += static_cast<std::size_t>(got);
   }

@@ -16,6 +16,16 @@ namespace {
 constexpr std::string_view kPrefix = "mcap:";
 constexpr std::array<std::string_view, 3> kEndings = {".mcap", ".bag", ".db3"};
 
+// The first of the times, nanoseconds, that is one; 0: none. Damaged messages have any number: the
+// difference of two times must fit into 64 bits.
+std::int64_t FirstTime(std::int64_t stamp, std::int64_t recorded) {
+  constexpr std::int64_t kLatest = std::int64_t{1} << 62;
+  for (const std::int64_t time : {stamp, recorded}) {
+    if (time > 0 && time < kLatest) return time;
+  }
+  return 0;
+}
+
 class BagSource : public FrameSource {
  public:
   BagSource(std::string path, std::unique_ptr<Bag> bag, const BagTopic* topic)
@@ -32,7 +42,7 @@ class BagSource : public FrameSource {
           absl::StrCat(name(), ", message ", index, ": ", std::string(frame.status().message()));
       frame = std::move(bad);
     }
-    if (frame->capture_time_ns == 0) frame->capture_time_ns = place.time_ns;
+    frame->capture_time_ns = FirstTime(frame->capture_time_ns, place.time_ns);
     return std::make_optional(*std::move(frame));
   }
 
@@ -52,7 +62,7 @@ class BagSource : public FrameSource {
     for (const MessagePlace& place : topic_->messages) {
       const auto bytes = bag_->Read(place);
       const std::int64_t stamp = bytes.ok() ? StampOf(*topic_, *bytes) : 0;
-      const std::int64_t key = stamp == 0 ? place.time_ns : stamp;
+      const std::int64_t key = FirstTime(stamp, place.time_ns);
       keys.values.push_back(keys.values.empty() ? key : std::max(key, keys.values.back()));
     }
     return keys;

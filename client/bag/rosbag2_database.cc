@@ -3,11 +3,14 @@
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <sqlite3.h>
 
+#include <filesystem>
 #include <map>
 
 #include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
+#include "absl/strings/str_replace.h"
 #include "client/bag/bag_file.h"
+#include "client/bag/byte_reader.h"
 #include "client/bag/decompression.h"
 #include "homing/base/status_macros.h"
 
@@ -15,15 +18,34 @@ namespace homing::client::bag {
 namespace {
 
 constexpr char kZstdMagic[] = "\x28\xb5\x2f\xfd";
+// Of SQLite's files, and where the number of pages is in it.
+constexpr std::uint64_t kHeadBytes = 100;
+constexpr std::uint64_t kPageCountOffset = 28;
+
+// The file as one that does not change: SQLite then writes nothing beside it, which a read-only
+// folder would not allow. Not so while files beside it show that somebody writes to it.
+std::string UriOf(const std::string& path) {
+  std::error_code error;
+  const bool in_use = std::filesystem::exists(path + "-wal", error) ||
+                      std::filesystem::exists(path + "-journal", error);
+  const std::string whole = std::filesystem::absolute(path, error).string();
+  return absl::StrCat("file://",
+                      absl::StrReplaceAll(whole, {{"%", "%25"}, {"?", "%3f"}, {"#", "%23"}}),
+                      in_use ? "" : "?immutable=1");
+}
 
 class Rosbag2Database : public Bag {
  public:
   // Throws SQLite::Exception.
   Rosbag2Database(const std::string& path, const BagLimits& limits)
-      : path_(path), limits_(limits), database_(path, SQLite::OPEN_READONLY) {
+      : path_(path),
+        limits_(limits),
+        database_(UriOf(path), SQLite::OPEN_READONLY | SQLite::OPEN_URI) {
     sqlite3_limit(database_.getHandle(), SQLITE_LIMIT_LENGTH, static_cast<int>(limits.max_chunk));
-    // The file is foreign: its triggers and views must not run functions.
-    database_.exec("PRAGMA trusted_schema = OFF; PRAGMA cell_size_check = ON");
+    // The file is foreign: its triggers and views must not run functions. With writable_schema,
+    // SQLite also opens a file whose end is missing; it is opened for reading only.
+    database_.exec(
+        "PRAGMA trusted_schema = OFF; PRAGMA cell_size_check = ON; PRAGMA writable_schema = ON");
   }
 
   absl::Status Scan();
@@ -32,7 +54,7 @@ class Rosbag2Database : public Bag {
  private:
   // False for a view, whose query could run for ever.
   bool IsTable(const std::string& name);
-  // Reports a file that ends within a page: SQLite would fill the page with zeros.
+  // Reports a file that has fewer pages than its head says, or ends within a page.
   absl::Status CheckPages();
   void ScanTopics();
   void ScanMessages();
@@ -54,10 +76,16 @@ bool Rosbag2Database::IsTable(const std::string& name) {
 
 absl::Status Rosbag2Database::CheckPages() {
   HOMING_ASSIGN_OR_RETURN(const BagFile file, BagFile::Open(path_));
+  HOMING_ASSIGN_OR_RETURN(const std::string head, file.ReadUpTo(0, kHeadBytes));
   SQLite::Statement query(database_, "PRAGMA page_size");
-  const std::int64_t page = query.executeStep() ? query.getColumn(0).getInt64() : 0;
-  if (page > 0 && file.size() % static_cast<std::uint64_t>(page) != 0) {
-    ReportDamage(path_ + " ends too early, within a page");
+  const auto page = query.executeStep() ? query.getColumn(0).getUInt() : 0;
+  ByteReader reader(head);
+  reader.set_big_endian(true);
+  reader.Bytes(kPageCountOffset);
+  const std::uint64_t whole = std::uint64_t{reader.Take<std::uint32_t>()} * page;
+  if (page > 0 && (file.size() < whole || file.size() % page != 0)) {
+    ReportDamage(absl::StrCat(path_, " ends too early: it has ", file.size(), " bytes of ", whole,
+                              "; what is missing is not read"));
   }
   return absl::OkStatus();
 }
@@ -95,8 +123,7 @@ absl::Status Rosbag2Database::Scan() {
     HOMING_RETURN_IF_ERROR(CheckPages());
     ScanTopics();
   } catch (const SQLite::Exception& error) {
-    return absl::InvalidArgumentError(
-        absl::StrCat(path_, " is not a database of rosbag2: ", error.what()));
+    return absl::InvalidArgumentError(absl::StrCat(path_, " is damaged: ", error.what()));
   }
   try {
     ScanMessages();

@@ -49,10 +49,10 @@ std::string Line(const BagTopic& topic) {
 }
 
 absl::Status Unclear(const std::string& what, const std::vector<BagTopic>& topics) {
-  std::string text = what;
   const bool any = std::any_of(topics.begin(), topics.end(), IsImage);
-  absl::StrAppend(&text, any ? "; name one as FILE#TOPIC. Image topics:"
-                             : ". It has no image topic; its topics:");
+  if (!any && topics.empty()) return absl::InvalidArgumentError("it has no topics");
+  std::string text = any ? absl::StrCat(what, "; name one as FILE#TOPIC. Image topics:")
+                         : "it has no image topic; its topics:";
   for (const BagTopic& topic : topics) {
     if (IsImage(topic)) absl::StrAppend(&text, Line(topic));
     if (!any) absl::StrAppend(&text, "\n  ", topic.name, "  ", topic.type);

@@ -1,5 +1,6 @@
 #include "client/command/answer_bag.h"
 
+#include <cerrno>
 #include <utility>
 
 #include "absl/strings/str_cat.h"
@@ -7,6 +8,7 @@
 #include "absl/time/clock.h"
 #include "client/command/growing_file.h"
 #include "client/command/json_line.h"
+#include "client/file/output_file.h"
 #include "homing/base/status_macros.h"
 #include "homing/landmark/landmark_finder.h"
 #include "proto/wire/observation_conversion.h"
@@ -132,8 +134,9 @@ class WatchedObservations : public ObservationStream {
   AnswerBag* bag_;
 };
 
-AnswerBag::AnswerBag(std::ofstream file, const FlowOptions& flow)
-    : file_(std::move(file)),
+AnswerBag::AnswerBag(std::string path, std::ofstream file, const FlowOptions& flow)
+    : path_(std::move(path)),
+      file_(std::move(file)),
       writer_(&file_),
       flow_options_(flow),
       flow_(flow),
@@ -143,7 +146,7 @@ absl::StatusOr<std::unique_ptr<AnswerBag>> AnswerBag::Open(const std::string& pa
                                                            const FlowOptions& flow,
                                                            const std::stop_token& stop) {
   HOMING_ASSIGN_OR_RETURN(std::ofstream file, OpenGrowingFile(path, stop));
-  return std::unique_ptr<AnswerBag>(new AnswerBag(std::move(file), flow));
+  return std::unique_ptr<AnswerBag>(new AnswerBag(path, std::move(file), flow));
 }
 
 std::unique_ptr<ObservationStream> AnswerBag::Watch(ObservationStream* inner) {
@@ -158,6 +161,7 @@ void AnswerBag::ForgetFlow() {
 // Does not keep an observation that the server will refuse; the server reports the reason.
 void AnswerBag::Keep(const v1::Observation& message) {
   const MutexLock lock(mutex_);
+  if (!failed_.ok()) return;
   const auto observation = wire::FromProto(message);
   if (!observation.ok()) return;
   auto flow = flow_.Compute(*observation);
@@ -204,8 +208,21 @@ absl::Status AnswerBag::WritePictures(const v1::LocalizeResponse& answer, Seen s
   return absl::OkStatus();
 }
 
+absl::Status AnswerBag::Named(const absl::Status& status) const {
+  if (status.ok()) return status;
+  return CannotWrite(path_, errno == 0 ? ENOSPC : errno);
+}
+
 absl::Status AnswerBag::Add(const v1::LocalizeResponse& answer) {
   const MutexLock lock(mutex_);
+  if (!failed_.ok()) return absl::OkStatus();
+  errno = 0;
+  failed_ = Named(Write(answer));
+  if (!failed_.ok()) seen_.clear();
+  return failed_;
+}
+
+absl::Status AnswerBag::Write(const v1::LocalizeResponse& answer) {
   const auto found = seen_.find(answer.sequence());
   std::int64_t time_ns = start_ns_ + answer.sequence() * kUntimedStepNs;
   if (found != seen_.end()) {
@@ -218,7 +235,9 @@ absl::Status AnswerBag::Add(const v1::LocalizeResponse& answer) {
 
 absl::Status AnswerBag::Finish() {
   const MutexLock lock(mutex_);
-  return writer_.Finish();
+  if (!failed_.ok()) return failed_;
+  errno = 0;
+  return Named(writer_.Finish());
 }
 
 }  // namespace homing::client

@@ -34,8 +34,10 @@ class AnswerBag {
   // `inner` and the bag outlive the result.
   std::unique_ptr<ObservationStream> Watch(ObservationStream* inner);
 
-  // RESOURCE_EXHAUSTED.
+  // The error of the system that stops the file, RESOURCE_EXHAUSTED if the disk is full: once.
+  // Later answers are left out.
   absl::Status Add(const v1::LocalizeResponse& answer);
+  // Also the error that Add returned.
   absl::Status Finish();
 
  private:
@@ -50,7 +52,10 @@ class AnswerBag {
     std::array<Picture, 2> pictures;
   };
 
-  AnswerBag(std::ofstream file, const FlowOptions& flow);
+  AnswerBag(std::string path, std::ofstream file, const FlowOptions& flow);
+  absl::Status Write(const v1::LocalizeResponse& answer) HOMING_REQUIRES(mutex_);
+  // An error of the writer as the system's, with the file's name.
+  absl::Status Named(const absl::Status& status) const;
   void Keep(const v1::Observation& observation);
   void ForgetFlow();
   absl::Status WritePictures(const v1::LocalizeResponse& answer, Seen seen) HOMING_REQUIRES(mutex_);
@@ -58,7 +63,10 @@ class AnswerBag {
       HOMING_REQUIRES(mutex_);
 
   Mutex mutex_;
+  const std::string path_;
   std::ofstream file_;
+  // The first error.
+  absl::Status failed_ HOMING_GUARDED_BY(mutex_);
   bag::McapWriter writer_ HOMING_GUARDED_BY(mutex_);
   std::map<std::string, std::uint16_t> channels_ HOMING_GUARDED_BY(mutex_);
   FlowOptions flow_options_;

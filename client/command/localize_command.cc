@@ -1,3 +1,4 @@
+#include <cerrno>
 #include <fstream>
 #include <map>
 #include <memory>
@@ -13,6 +14,7 @@
 #include "client/command/growing_file.h"
 #include "client/command/json_line.h"
 #include "client/command/progress.h"
+#include "client/file/output_file.h"
 #include "client/homing_client.h"
 #include "client/journey_client.h"
 #include "homing/base/status_macros.h"
@@ -94,19 +96,35 @@ class AnswerOutputs {
   AnswerBag* bag() { return bag_.get(); }
 
   absl::Status Add(const v1::LocalizeResponse& answer) {
+    errno = 0;
     if (table_ && !(*table_ << AnswerTableLine(answer) << std::endl)) {
-      return absl::ResourceExhaustedError(absl::StrCat("cannot write ", flags_.csv));
+      table_.reset();
+      Lose(CannotWrite(flags_.csv, errno == 0 ? ENOSPC : errno));
     }
-    if (bag_ != nullptr) HOMING_RETURN_IF_ERROR(bag_->Add(answer));
+    if (bag_ != nullptr) Lose(bag_->Add(answer));
     return session_.json ? session_.PrintJson(ToJson(answer)) : session_.Print(AnswerRow(answer));
   }
 
-  absl::Status Finish() { return bag_ == nullptr ? absl::OkStatus() : bag_->Finish(); }
+  absl::Status Finish() {
+    if (bag_ != nullptr) lost_.Update(bag_->Finish());
+    return lost_;
+  }
 
  private:
+  // A full disk must not leave a robot without answers: they continue without the file.
+  void Lose(const absl::Status& status) {
+    if (status.ok()) return;
+    session_.Log(absl::StrCat(std::string(status.message()),
+                              "; the answers continue without this file: make room or name "
+                              "another place, then start again"));
+    lost_.Update(status);
+  }
+
   const Session& session_;
   const LocalizeFlags& flags_;
   std::optional<std::ofstream> table_;
+  // The first file that could not be written.
+  absl::Status lost_;
   std::unique_ptr<AnswerBag> bag_;
 };
 

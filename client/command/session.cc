@@ -21,6 +21,9 @@ std::string AdviceOn(const absl::Status& status) {
   if (absl::IsPermissionDenied(status)) {
     return "the server's operator can change roles, or list this robot among a journey's readers";
   }
+  if (absl::IsAlreadyExists(status)) {
+    return "give another name; homing journeys delete removes a journey";
+  }
   if (absl::IsUnimplemented(status)) return "the server is older than this program";
   if (absl::IsResourceExhausted(status) && absl::StrContains(status.message(), "larger than max")) {
     return "a message was too large: --send flow sends far less, and the server takes more with "

@@ -71,7 +71,8 @@ class VideoSource : public FrameSource {
       if (!capture_.read(first_) || first_.empty()) {
         return absl::InvalidArgumentError(absl::StrCat(Shown(path_), " has no frames"));
       }
-      promised_ = std::max<std::int64_t>(0, std::llround(capture_.get(cv::CAP_PROP_FRAME_COUNT)));
+      // A damaged header gives any number.
+      promised_ = std::llround(std::clamp(capture_.get(cv::CAP_PROP_FRAME_COUNT), 0.0, 1e12));
       fps_ = capture_.get(cv::CAP_PROP_FPS);
       last_ms_ = capture_.get(cv::CAP_PROP_POS_MSEC);
     } catch (const cv::Exception& e) {

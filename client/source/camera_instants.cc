@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "absl/strings/str_cat.h"
+#include "absl/strings/str_format.h"
 #include "client/source/live_source.h"
 #include "homing/base/status_macros.h"
 
@@ -17,8 +18,11 @@ constexpr double kNanoseconds = 1e9;
 // Rates that differ by a smaller fraction count as equal.
 constexpr double kSameRate = 0.01;
 
+// Empty if there is no number, or one that only a damaged header gives.
 FrameKeys TimesAtRate(const FrameSource& camera) {
+  constexpr std::int64_t kMost = 10'000'000;
   FrameKeys keys{FrameKeys::Kind::kTime, {}};
+  if (camera.promised_size() > kMost) return keys;
   for (std::int64_t i = 0; i < camera.promised_size(); ++i) {
     keys.values.push_back(std::llround(static_cast<double>(i) * kNanoseconds / camera.fps()));
   }
@@ -36,14 +40,19 @@ CameraInstants::CameraInstants(Cameras cameras, FrameChoice choice)
 
 absl::StatusOr<std::unique_ptr<CameraInstants>> CameraInstants::Create(Cameras cameras,
                                                                        const FrameChoice& choice) {
+  std::string reported;
   for (auto& camera : cameras) {
     if (camera == nullptr) continue;
-    if (const std::string remark = camera->remark(); !remark.empty()) choice.report(remark);
+    // Two topics of one bag have the same remark.
+    const std::string remark = camera->remark();
+    if (!remark.empty() && remark != reported) choice.report(remark);
+    reported = remark;
     if (camera->live()) camera = MakeStoppable(std::move(camera), choice.stop);
   }
   std::unique_ptr<CameraInstants> instants(new CameraInstants(std::move(cameras), choice));
   HOMING_RETURN_IF_ERROR(instants->Pair());
   HOMING_RETURN_IF_ERROR(instants->CheckTimes());
+  instants->TakeHoles();
   return instants;
 }
 
@@ -72,6 +81,27 @@ absl::Status CameraInstants::Pair() {
   }
   pairing_ = std::move(pairing);
   return absl::OkStatus();
+}
+
+void CameraInstants::TakeHoles() {
+  for (std::size_t camera = 0; camera < cameras_.size(); ++camera) {
+    const std::vector<std::int64_t> frames = FindHoles(keys_[camera]);
+    if (frames.empty()) continue;
+    const auto first = static_cast<std::size_t>(frames[0]);
+    const std::vector<std::int64_t>& times = keys_[camera].values;
+    choice_.report(absl::StrFormat(
+        "--%s has no frame for %.1f s before frame %d%s; no step spans a part that is missing",
+        kCameraNames[camera], static_cast<double>(times[first] - times[first - 1]) / kNanoseconds,
+        frames[0],
+        frames.size() == 1 ? "" : absl::StrFormat(", nor at %d more places", frames.size() - 1)));
+    if (!pairing_) holes_.insert(holes_.end(), frames.begin(), frames.end());
+    for (std::size_t i = 0; pairing_ && i < pairing_->instants.size(); ++i) {
+      if (std::binary_search(frames.begin(), frames.end(), pairing_->instants[i][camera])) {
+        holes_.push_back(static_cast<std::int64_t>(i));
+      }
+    }
+  }
+  std::sort(holes_.begin(), holes_.end());
 }
 
 absl::Status CameraInstants::CheckTimes() const {
@@ -217,6 +247,8 @@ absl::StatusOr<std::optional<CameraInstants::Instant>> CameraInstants::Read() {
       continue;
     }
     Instant instant;
+    const auto hole = std::upper_bound(holes_.begin(), holes_.end(), index - choice_.every);
+    place_.gap = place_.gap || (hole != holes_.end() && *hole <= index);
     HOMING_ASSIGN_OR_RETURN(const bool more, ReadFrames(index, &instant));
     if (!more) break;
     HOMING_RETURN_IF_ERROR(DropFaults(&instant));

@@ -8,6 +8,7 @@
 #include <optional>
 #include <stop_token>
 #include <string>
+#include <vector>
 
 #include "absl/status/statusor.h"
 #include "client/source/frame_pairing.h"
@@ -78,6 +79,8 @@ class CameraInstants {
   CameraInstants(Cameras cameras, FrameChoice choice);
 
   absl::Status Pair();
+  // Sets holes_ and reports them.
+  void TakeHoles();
   absl::Status CheckTimes() const;
   absl::StatusOr<std::optional<Instant>> Read();
   // The frames at `index`; false: all cameras are at their end.
@@ -97,6 +100,8 @@ class CameraInstants {
   std::optional<FramePairing> pairing_;
   // The cameras' keys, empty without.
   std::array<FrameKeys, 2> keys_;
+  // Ascending indices of the instants before which a camera gave no frame for long.
+  std::vector<std::int64_t> holes_;
   // Index of the frame that each camera gives next.
   std::array<std::int64_t, 2> position_{};
   Place place_;

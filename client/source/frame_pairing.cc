@@ -7,6 +7,8 @@ namespace homing::client {
 namespace {
 
 constexpr std::int64_t kNone = -1;
+constexpr std::int64_t kHoleNs = 500'000'000;
+constexpr std::int64_t kHoleIntervals = 5;
 
 std::int64_t MedianInterval(const std::vector<std::int64_t>& values) {
   if (values.size() < 2) return 0;
@@ -80,6 +82,19 @@ FramePairing PairFrames(const FrameKeys& left, std::int64_t left_size, const Fra
   }
   pairing.by = time ? "time" : "number";
   return pairing;
+}
+
+std::vector<std::int64_t> FindHoles(const FrameKeys& keys) {
+  std::vector<std::int64_t> holes;
+  if (keys.kind != FrameKeys::Kind::kTime) return holes;
+  const std::int64_t usual = MedianInterval(keys.values);
+  for (std::size_t i = 1; i < keys.values.size(); ++i) {
+    const std::int64_t interval = keys.values[i] - keys.values[i - 1];
+    if (interval > kHoleNs && interval / kHoleIntervals > usual) {
+      holes.push_back(static_cast<std::int64_t>(i));
+    }
+  }
+  return holes;
 }
 
 }  // namespace homing::client

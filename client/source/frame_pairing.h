@@ -26,6 +26,11 @@ struct FramePairing {
 FramePairing PairFrames(const FrameKeys& left, std::int64_t left_size, const FrameKeys& right,
                         std::int64_t right_size);
 
+// Indices of the frames that come more than half a second and more than five intervals after the
+// frame before them: a recorder stopped, or a part of the file is lost. Empty unless the keys are
+// times.
+std::vector<std::int64_t> FindHoles(const FrameKeys& keys);
+
 }  // namespace homing::client
 
 #endif  // CLIENT_SOURCE_FRAME_PAIRING_H_

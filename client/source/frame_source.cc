@@ -24,6 +24,17 @@ bool IsFolderOrGlob(const std::string& source) {
   return source.find_first_of("*?[") != std::string::npos;
 }
 
+// The bags of a folder: rosbag2 records one or more into a folder of its own.
+std::vector<std::string> BagsIn(const std::string& folder) {
+  std::vector<std::string> bags;
+  std::error_code error;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
+    if (bag::ParseBagName(entry.path().string())) bags.push_back(entry.path().string());
+  }
+  std::sort(bags.begin(), bags.end());
+  return bags;
+}
+
 // "0" to "999", unless there is a file of that name.
 bool IsCameraIndex(const std::string& source) {
   std::error_code error;
@@ -57,8 +68,13 @@ absl::StatusOr<std::unique_ptr<FrameSource>> OpenFrameSource(const std::string& 
   }
   if (const auto bag = bag::ParseBagName(source)) return bag::OpenBagSource(*bag, camera);
   if (IsFolderOrGlob(source)) {
-    HOMING_ASSIGN_OR_RETURN(auto images, ListImages(source));
-    return MakeImageFolder(std::move(images));
+    auto images = ListImages(source);
+    if (images.ok()) return MakeImageFolder(*std::move(images));
+    const std::vector<std::string> bags = BagsIn(source);
+    if (bags.size() == 1) return OpenFrameSource(bags[0], camera);
+    if (bags.empty()) return images.status();
+    return absl::InvalidArgumentError(absl::StrCat(source, " holds ", bags.size(),
+                                                   " bags and no images; name one, as ", bags[0]));
   }
   std::error_code error;
   if (IsNetworkSource(source)) {

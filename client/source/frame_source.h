@@ -73,7 +73,7 @@ bool IsNetworkSource(const std::string& source);
 absl::Status CheckSourceText(const std::string& source);
 
 // SOURCE of the command line, for one camera (a simulated scene has two):
-// folder or glob, video file, /dev/videoN, bag (client/bag/bag_source.h),
+// folder or glob, video file, /dev/videoN, bag (client/bag/bag_source.h) or a folder with one,
 // "sim:SCENE[,key=value...]". INVALID_ARGUMENT (malformed, unknown scene or key), NOT_FOUND (no
 // images).
 absl::StatusOr<std::unique_ptr<FrameSource>> OpenFrameSource(const std::string& source,

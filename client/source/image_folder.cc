@@ -2,13 +2,9 @@
 
 #include <glob.h>
 
-#include <algorithm>
 #include <array>
-#include <cerrno>
 #include <filesystem>
 
-#include "absl/strings/ascii.h"
-#include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
 #include "client/source/image_names.h"
 #include "client/source/opencv_readers.h"
@@ -24,14 +20,8 @@ constexpr std::array<const char*, 9> kUnreadableEndings = {
 // The server applies stricter limits; a file that claims more than this is no image of a camera.
 constexpr DecodeLimits kFileLimits = {1, 65535, std::int64_t{1} << 28};
 
-bool HasUnreadableEnding(const std::string& path) {
-  const std::string lower = absl::AsciiStrToLower(path);
-  return std::any_of(kUnreadableEndings.begin(), kUnreadableEndings.end(),
-                     [&](const char* ending) { return absl::EndsWith(lower, ending); });
-}
-
 void AddFile(const std::filesystem::path& path, ImageList* list) {
-  if (HasUnreadableEnding(path.string())) ++list->unreadable_kind;
+  if (HasEnding(path.string(), kUnreadableEndings)) ++list->unreadable_kind;
   std::error_code error;
   const auto type = std::filesystem::status(path, error).type();
   // A link to nothing is listed, so that it is reported.

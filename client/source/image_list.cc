@@ -1,6 +1,5 @@
 #include "client/source/image_list.h"
 
-#include <algorithm>
 #include <array>
 #include <filesystem>
 #include <optional>
@@ -57,11 +56,7 @@ absl::Status WrongLine(const std::string& path, std::size_t number, const std::s
 
 }  // namespace
 
-bool HasListEnding(const std::string& path) {
-  const std::string lower = absl::AsciiStrToLower(path);
-  return std::any_of(kEndings.begin(), kEndings.end(),
-                     [&](const char* ending) { return absl::EndsWith(lower, ending); });
-}
+bool HasListEnding(const std::string& path) { return HasEnding(path, kEndings); }
 
 absl::StatusOr<ImageList> ReadImageList(const std::string& path) {
   HOMING_ASSIGN_OR_RETURN(const std::string text, ReadFile(path));

@@ -4,9 +4,9 @@
 #include <array>
 #include <cctype>
 #include <filesystem>
+#include <limits>
 #include <optional>
 
-#include "absl/strings/ascii.h"
 #include "absl/strings/match.h"
 #include "absl/strings/numbers.h"
 #include "absl/strings/str_cat.h"
@@ -96,29 +96,35 @@ bool Ascends(const std::vector<std::int64_t>& values) {
   return std::adjacent_find(values.begin(), values.end(), std::greater_equal<>()) == values.end();
 }
 
-// Nanoseconds a unit of a clock's whole numbers; 0: too small for a clock.
+// Nanoseconds a unit of a clock's whole numbers; 0: too small for a clock, or too large for 64 bits
+// of nanoseconds.
 std::int64_t UnitOfClock(std::int64_t value) {
   constexpr std::int64_t kMilliseconds = 100'000'000'000;
-  if (value >= kMilliseconds * 1'000'000) return 1;
-  if (value >= kMilliseconds * 1'000) return 1'000;
-  return value >= kMilliseconds ? 1'000'000 : 0;
+  std::int64_t unit = 0;
+  if (value >= kMilliseconds) unit = 1'000'000;
+  if (value >= kMilliseconds * 1'000) unit = 1'000;
+  if (value >= kMilliseconds * 1'000'000) unit = 1;
+  return unit == 0 || value <= std::numeric_limits<std::int64_t>::max() / unit ? unit : 0;
 }
 
 FrameKeys KeysOfNumbers(std::vector<std::int64_t> values) {
   if (!Ascends(values)) return {};
   const std::int64_t unit = UnitOfClock(values.front());
-  if (unit == 0) return {FrameKeys::Kind::kNumber, std::move(values)};
+  if (unit == 0 || unit != UnitOfClock(values.back())) {
+    return {FrameKeys::Kind::kNumber, std::move(values)};
+  }
   for (std::int64_t& value : values) value *= unit;
   return {FrameKeys::Kind::kTime, std::move(values)};
 }
 
 }  // namespace
 
-bool HasImageEnding(const std::string& path) {
-  const std::string lower = absl::AsciiStrToLower(path);
-  return std::any_of(kImageEndings.begin(), kImageEndings.end(),
-                     [&](const char* ending) { return absl::EndsWith(lower, ending); });
+bool HasEnding(const std::string& path, std::span<const char* const> endings) {
+  return std::any_of(endings.begin(), endings.end(),
+                     [&](const char* ending) { return absl::EndsWithIgnoreCase(path, ending); });
 }
+
+bool HasImageEnding(const std::string& path) { return HasEnding(path, kImageEndings); }
 
 std::optional<std::int64_t> ParseTime(const std::string& text) {
   const auto decimal = ParseDecimal(text);

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,8 @@
 
 namespace homing::client {
 
+// True if the name has one of the endings, in small or capital letters.
+bool HasEnding(const std::string& path, std::span<const char* const> endings);
 // True if the name has the ending of a readable image format.
 bool HasImageEnding(const std::string& path);
 

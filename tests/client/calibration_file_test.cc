@@ -175,6 +175,28 @@ TEST_F(CalibrationFileTest, ReadsXmlOfOpenCv) {
   EXPECT_EQ(camera->distortion, (Distortion{0.125, -0.25, 0.5, -0.75}));
 }
 
+// OpenCV's parser followed a null pointer.
+TEST_F(CalibrationFileTest, ABrokenHeadOfXmlIsRefused) {
+  const std::string text =
+      "<?xml veriosn=" + std::string(16, '\0') + "\xff\"?>\n<opencv_storage>\n<image_width>320</im";
+  EXPECT_THAT(Read(text), StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("c.yaml")));
+}
+
+// Each once overflowed the stack.
+TEST_F(CalibrationFileTest, DeepAndEndlessTreesAreRefused) {
+  const auto repeated = [](const std::string& text, int times) {
+    std::string all;
+    for (int i = 0; i < times; ++i) all += text;
+    return all;
+  };
+  const std::string head = "<?xml version=\"1.0\"?><opencv_storage>";
+  for (const std::string& text :
+       {std::string("a: &a [*a]"), repeated("[", 60'000), head + repeated("<a>", 200'000),
+        head + repeated("<a>", 900) + "1" + repeated("</a>", 900) + "</opencv_storage>"}) {
+    EXPECT_THAT(Read(text), StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("c.yaml")));
+  }
+}
+
 TEST_F(CalibrationFileTest, SaysWhatIsWrong) {
   EXPECT_THAT(ReadCalibrationFile("/no/such.yaml"),
               StatusIs(absl::StatusCode::kNotFound, HasSubstr("/no/such.yaml: No such file")));

@@ -1,18 +1,10 @@
 // Bags. Input: a whole file; its first bytes choose the format.
-#include <unistd.h>
-
-#include <fstream>
-
 #include "client/bag/bag_source.h"
 #include "tests/fuzz/fuzz_input.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   namespace bag = homing::client::bag;
-  // In memory.
-  static const std::string path = "/dev/shm/homing_fuzz_bag_" + std::to_string(::getpid());
-  ::unlink(path.c_str());
-  std::ofstream(path, std::ios::binary)
-      .write(reinterpret_cast<const char*>(data), static_cast<std::streamsize>(size));
+  const std::string path = homing::fuzz::FileOf(data, size);
   bag::BagLimits limits;
   limits.max_chunk = 4 << 20;
   const auto opened = bag::OpenBag(path, limits);
@@ -28,7 +20,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       homing::fuzz::Require(frame.ok() && frame->has_value());
     }
     if (count <= 20) {
-      homing::fuzz::Require((*source)->keys().values.size() == static_cast<std::size_t>(count));
+      const std::vector<std::int64_t> keys = (*source)->keys().values;
+      homing::fuzz::Require(keys.size() == static_cast<std::size_t>(count));
+      homing::fuzz::Require(std::is_sorted(keys.begin(), keys.end()));
+      homing::fuzz::Require(keys.empty() || keys.front() >= 0);
     }
     homing::fuzz::Require((*source)->Seek(count));
     const auto end = (*source)->Next();

@@ -2,9 +2,12 @@
 #ifndef TESTS_FUZZ_FUZZ_INPUT_H_
 #define TESTS_FUZZ_FUZZ_INPUT_H_
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <cstdint>
 #include <cstring>
+#include <fstream>
 #include <string>
 #include <string_view>
 
@@ -35,6 +38,15 @@ class FuzzInput {
  private:
   std::string_view rest_;
 };
+
+// The input as a new file in memory; its path, the same each time.
+inline std::string FileOf(const std::uint8_t* data, std::size_t size) {
+  static const std::string path = "/dev/shm/homing_fuzz_file_" + std::to_string(::getpid());
+  ::unlink(path.c_str());
+  std::ofstream(path, std::ios::binary)
+      .write(reinterpret_cast<const char*>(data), static_cast<std::streamsize>(size));
+  return path;
+}
 
 // A condition that must hold; the fuzzer sees an abort.
 inline void Require(bool holds) {

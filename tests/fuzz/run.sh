@@ -1,13 +1,14 @@
 #!/bin/sh
 # Fuzzes each target for SECONDS (default 30), one a core at a time, from the inputs kept in corpus/, with
 # AddressSanitizer, LeakSanitizer and UndefinedBehaviorSanitizer. A line each: name executions ok|short; exit
-# code 1 if any is short. An input that breaks something is left in build/fuzz/findings/.
+# code 1 if any is short. An input that breaks something is left in build/fuzz/findings/. The target video,
+# mostly FFmpeg, runs only where it is named.
 # usage: sh tests/fuzz/run.sh [SECONDS [TARGET...]]
 set -eu
 cd "$(dirname "$0")/../.."
 seconds=${1:-30}
 [ $# -eq 0 ] || shift
-[ $# -gt 0 ] || set -- image bag flow import database config request
+[ $# -gt 0 ] || set -- image bag calibration list flow import database config request
 mkdir -p build
 log=build/fuzz-build.log
 {

@@ -31,6 +31,29 @@ class CliJsonTest : public CliTest {
   }
 };
 
+// `ulimit -f` counts blocks of 512 bytes.
+TEST_F(CliJsonTest, AFullDiskEndsTheFilesAndNotTheAnswers) {
+  StartServer();
+  ASSERT_EQ(Record().code, 0);
+  const std::vector<std::string> localize = {"localize", "--json", "--journey", kJourney,
+                                             "--left",   kHome,    "--right",   kHome};
+  const Ran whole = Homing(localize);
+  ASSERT_EQ(whole.code, 0) << whole.errors;
+  std::vector<std::string> limited = Command(localize);
+  for (const std::string& word :
+       {std::string("--mcap-out"), Path("a.mcap"), std::string("--csv"), Path("a.csv")}) {
+    limited.push_back(word);
+  }
+  limited.insert(limited.begin(),
+                 {"/bin/sh", "-c", "trap '' XFSZ; ulimit -f 2; exec \"$@\"", "sh"});
+  const Ran ran = Run(limited);
+  EXPECT_EQ(ran.code, 1);
+  EXPECT_EQ(ran.lines.size(), whole.lines.size());
+  for (const char* file : {"a.mcap", "a.csv"}) {
+    EXPECT_THAT(ran.errors, HasSubstr(Path(file) + ": File too large; the answers continue"));
+  }
+}
+
 TEST_F(CliJsonTest, RecordPrintsOneLineAnObservation) {
   StartServer();
   const Ran ran = Record();

@@ -76,6 +76,13 @@ TEST_F(CliSourceTest, AnotherSourceNeedsResume) {
   EXPECT_EQ(Shown()["next_sequence"], both);
 }
 
+TEST_F(CliSourceTest, ANameThatIsTakenIsExplained) {
+  ASSERT_EQ(Record("sim:street,length=2").code, 0);
+  const Ran again = Record("sim:street,length=2");
+  EXPECT_EQ(again.code, 1);
+  EXPECT_THAT(again.errors, HasSubstr("give another name"));
+}
+
 TEST_F(CliSourceTest, FinishClosesAJourneyThatNobodyRecords) {
   ASSERT_EQ(Record("sim:street,length=2", {"--no-finish"}).code, 0);
   const Ran ran = Homing({"journeys", "finish", kJourney});

@@ -4,7 +4,8 @@ set -eu
 cd /packages
 export DEBIAN_FRONTEND=noninteractive
 unit=/usr/lib/systemd/system/homing-server.service
-journey=robots/r1/journeys/out
+out=drive/out
+home=drive/home
 server=
 
 fail() { echo "packages: $*" >&2; exit 1; }
@@ -34,10 +35,17 @@ stop() {
 }
 trap '[ -z "$server" ] || kill "$server"' EXIT
 
-localise() {
-  homing --quiet --json localize --journey "$journey" --travel return --left home/left --right home/right >home.json
-  grep -q '"outcome":"MATCH"' home.json || { head -n 3 home.json; fail "no MATCH on the way home"; }
+# record NAME LEFT RIGHT: as robots/r1/journeys/NAME, and its map as NAME.map.
+record() {
+  homing --quiet --json record --journey "robots/r1/journeys/$1" --left "$2" --right "$3" >record.json
+  homing --quiet journeys export "robots/r1/journeys/$1" "$1.map" >export.txt
 }
+# localise NAME LEFT RIGHT: on that journey.
+localise() {
+  homing --quiet --json localize --journey "robots/r1/journeys/$1" --travel return --left "$2" --right "$3" >home.json
+  grep -q '"outcome":"MATCH"' home.json || { head -n 3 home.json; fail "no MATCH on the way home along $1"; }
+}
+show() { homing --quiet journeys show robots/r1/journeys/folder; }
 
 begun=$(date +%s)
 apt update
@@ -45,15 +53,21 @@ apt install ./old/homing-server_*.deb ./old/homing_*.deb
 say "installed $(version homing-server) in $(($(date +%s) - begun)) s"
 start
 homing-server healthcheck || fail "not healthy"
-homing --quiet simulate --scene street,length=20,seed=1 --out out >/dev/null
-homing --quiet simulate --scene street,length=20,seed=1,travel=return,offset=-1 --out home >/dev/null
-homing --quiet --json record --journey "$journey" --left out/left --right out/right >record.json
-localise
+record zstd.mcap $out/bags/zstd.mcap $out/bags/zstd.mcap
+localise zstd.mcap $home/bags/zstd.mcap $home/bags/zstd.mcap
 seconds=$(($(date +%s) - begun))
 [ "$seconds" -lt 120 ] || fail "$seconds s from the installation to the first answers"
-say "$(wc -l <record.json) observations recorded, $(wc -l <home.json) localised, $seconds s after the installation began"
+say "$(wc -l <record.json) observations of a bag recorded, $(wc -l <home.json) localised, $seconds s after the installation began"
+for bag in none.mcap lz4.mcap none.bag bz2.bag lz4.bag rosbag2.db3; do
+  record $bag $out/bags/$bag $out/bags/$bag
+  localise $bag $home/bags/$bag $home/bags/$bag
+  cmp zstd.mcap.map $bag.map || fail "the map of $bag differs"
+done
+record folder $out/left $out/right
+localise folder $home/left $home/right
+say "recorded and localised: a folder, and a bag of each format with the same map, $(stat -c %s zstd.mcap.map) bytes"
 [ "$(stat -c '%U %a' /var/lib/homing)" = 'homing 700' ] || fail "others may read /var/lib/homing"
-homing --quiet journeys show "$journey" >before.txt
+show >before.txt
 stop
 
 echo '# kept by the administrator' >>/etc/homing/server.toml
@@ -61,9 +75,9 @@ apt install -o Dpkg::Options::=--force-confold ./new/*.deb
 [ "$(version homing-server)" != 0.0.9 ] || fail "not upgraded"
 grep -q 'kept by the administrator' /etc/homing/server.toml || fail "the upgrade lost the options"
 start
-homing --quiet journeys show "$journey" >after.txt
+show >after.txt
 cmp before.txt after.txt || fail "the upgrade changed the journey"
-localise
+localise folder $home/left $home/right
 homing-bench --robots 2 --rate 5 --seconds 1 --ramp 0 >/dev/null
 say "upgraded to $(version homing-server): the journey and the options are the same"
 for program in homing homing-bench; do
@@ -79,14 +93,14 @@ cmake -S example -B built >cmake.log && cmake --build built >>cmake.log 2>&1 || 
 # shellcheck disable=SC2046 # one word an argument
 g++ -std=c++17 -Wall -Wextra -Werror example/there_and_back.cc -o by_pkg_config $(pkg-config --cflags --libs homing-client)
 for program in built/there_and_back ./by_pkg_config; do
-  "$program" 127.0.0.1:50551 "robots/r1/journeys/$(basename $program)" out/left/*.png >steps.txt
+  "$program" 127.0.0.1:50551 "robots/r1/journeys/$(basename $program)" $out/left/*.png >steps.txt
   [ "$(tail -n 1 steps.txt | cut -d ' ' -f 2)" -gt 10 ] || { cat steps.txt; fail "the example $program does not localise"; }
 done
 say "the example of libhoming localises: $(tail -n 1 steps.txt)"
 
-python3 examples/python/there_and_back.py 127.0.0.1:50551 robots/r1/journeys/python out/left out/left same >python.txt
+python3 examples/python/there_and_back.py 127.0.0.1:50551 robots/r1/journeys/python $out/left $out/left same >python.txt
 grep -q ' MATCH ' python.txt || { cat python.txt; fail "the Python example does not localise"; }
-homing --quiet --json localize --journey "$journey" --travel return --left home/left --right home/right |
+homing --quiet --json localize --journey robots/r1/journeys/folder --travel return --left $home/left --right $home/right |
   homing-vda5050 --map-id street >states.txt
 [ "$(wc -l <states.txt)" = "$(wc -l <home.json)" ] || fail "not one VDA 5050 fragment an answer"
 stop
@@ -99,7 +113,7 @@ python3 -m venv --system-site-packages venv
 apt remove python3-homing
 venv/bin/pip -q install --no-index wheel/homing-*.whl
 start --tls-cert /packages/pki/server.pem --tls-key /packages/pki/server.key --tls-client-ca /packages/pki/ca.pem
-venv/bin/python examples/python/there_and_back_async.py 127.0.0.1:50551 pki r1 out/left out/left >python.txt
+venv/bin/python examples/python/there_and_back_async.py 127.0.0.1:50551 pki r1 $out/left $out/left >python.txt
 grep -q 'places recognised' python.txt || { cat python.txt; fail "the asyncio example fails"; }
 say "Python: synchronous from the package, asyncio over TLS from the wheel: $(tail -n 1 python.txt | sed 's/.*\r//')"
 stop
@@ -109,7 +123,7 @@ apt remove homing-server
 [ -s /var/lib/homing/homing.db ] && [ -s /etc/homing/server.toml ] || fail "remove deleted data or options"
 apt install ./new/homing-server_*.deb
 start
-homing --quiet journeys show "$journey" >after.txt
+show >after.txt
 cmp before.txt after.txt || fail "the journey was lost by remove and install"
 stop
 apt purge homing-server

@@ -1,6 +1,7 @@
 #!/bin/sh
-# Tries the Debian packages in a bare Debian 12: install, serve, record, localise, upgrade, remove, purge;
-# the example of libhoming, the Python package and the wheel.
+# Tries the Debian packages in a bare Debian 12: install, serve, record and localise a bag of each format and a
+# folder, upgrade, remove, purge; the example of libhoming, the Python package and the wheel; the service under
+# systemd.
 # usage: sh tests/packages/run.sh [BUILD]     BUILD (default build/release, built if it is missing) is a
 # build folder with all programs. PACKED names a folder that pack.sh made, instead of it; BASE_TAR a tar
 # of deploy/base.sh to start from. Needs root and mmdebstrap.
@@ -37,5 +38,6 @@ fi
 mkdir "$work/root"
 tar -xf "$base" -C "$work/root"
 mkdir "$work/root/packages"
-cp -r "$packed/new" "$packed/old" "$packed/wheel" tests/packages/inside.sh examples "$work/root/packages"
+cp -r "$packed/new" "$packed/old" "$packed/wheel" "$packed/drive" tests/packages/inside.sh examples "$work/root/packages"
 sh .ci/bare_root.sh "$work/root" sh /packages/inside.sh
+sh tests/packages/boot.sh "$work/root"

@@ -52,6 +52,10 @@ TEST_P(DamagedBagTest, ATruncatedFileGivesWhatComesBefore) {
     const int frames = ReadAll(whole.substr(0, size));
     if (database) {
       EXPECT_TRUE(frames < 0 || !damage_.empty()) << size;
+      // The table itself lies in the first half.
+      if (size > whole.size() / 4 * 3) {
+        EXPECT_GT(frames, 0) << size;
+      }
       continue;
     }
     EXPECT_LE(frames, before) << size;

@@ -116,6 +116,9 @@ TEST(BagSourceTest, SaysWhatIsWrongWithAFile) {
   WriteFile(folder.File("text.bag"), "some text");
   EXPECT_THAT(OpenBagSource({folder.File("text.bag"), ""}, Side::kLeft),
               StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("neither")));
+  WriteFile(folder.File("empty.bag"), "");
+  EXPECT_THAT(OpenBagSource({folder.File("empty.bag"), ""}, Side::kLeft),
+              StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("is empty")));
   WriteFile(folder.File("old.bag"), "#ROSBAG V1.2\n");
   EXPECT_THAT(OpenBagSource({folder.File("old.bag"), ""}, Side::kLeft),
               StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("old version")));
@@ -124,6 +127,32 @@ TEST(BagSourceTest, SaysWhatIsWrongWithAFile) {
               StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("zstd -d")));
   EXPECT_THAT(OpenBagSource({folder.File(""), ""}, Side::kLeft),
               StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("regular file")));
+}
+
+// rosbag2 can record with a write-ahead log: numbers 2 in the file's head. The name is no URI.
+TEST(BagSourceTest, ADatabaseWithALogNeedsNoFileBesideIt) {
+  TemporaryFolder folder;
+  std::string bytes = ReadFile(BagPath("rosbag2.db3"));
+  bytes[18] = bytes[19] = 2;
+  WriteFile(folder.File("a?b%20#c.db3"), bytes);
+  const auto source = OpenBagSource({folder.File("a?b%20#c.db3"), ""}, Side::kLeft);
+  ASSERT_THAT(source, IsOk());
+  ASSERT_THAT((*source)->Next(), IsOk());
+  const std::filesystem::directory_iterator files(folder.File(""));
+  EXPECT_EQ(std::distance(begin(files), end(files)), 1);
+}
+
+// As rosbag2 leaves them.
+TEST(BagSourceTest, AFolderWithOneBagIsThatBag) {
+  TemporaryFolder folder;
+  std::filesystem::create_directory(folder.File("drive"));
+  WriteFile(folder.File("drive/metadata.yaml"), "rosbag2_bagfile_information:");
+  std::filesystem::copy_file(BagPath("rosbag2.db3"), folder.File("drive/drive_0.db3"));
+  EXPECT_THAT(OpenCameras(folder.File("drive"), folder.File("drive")), IsOk());
+  std::filesystem::copy_file(BagPath("rosbag2.db3"), folder.File("drive/drive_1.db3"));
+  EXPECT_THAT(OpenCameras(folder.File("drive"), "").status(),
+              StatusIs(absl::StatusCode::kInvalidArgument,
+                       AllOf(HasSubstr("2 bags"), HasSubstr("drive_0.db3"))));
 }
 
 TEST(BagSourceTest, OneTopicIsNotForBothCameras) {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <sstream>
 
 #include "client/bag/bag_source.h"
@@ -50,6 +51,29 @@ TEST(McapWriterTest, WhatItWritesIsReadBack) {
     EXPECT_EQ((*frame)->data, Pixels(i, false));
     EXPECT_EQ((*frame)->capture_time_ns, (i + 1) * std::int64_t{1'000'000'000});
   }
+}
+
+// Neither the stamp nor the time of recording is one.
+TEST(McapWriterTest, ATimeThatCannotBeIsNotKnown) {
+  TemporaryFolder folder;
+  std::ostringstream file;
+  McapWriter writer(&file);
+  const auto left = writer.AddChannel("/left", foxglove::RawImage::descriptor());
+  foxglove::RawImage image = Image(0);
+  image.mutable_timestamp()->set_seconds(0);
+  image.mutable_timestamp()->set_nanos(-5);
+  for (const std::int64_t recorded : {std::int64_t{-7}, std::numeric_limits<std::int64_t>::max()}) {
+    ASSERT_THAT(writer.Write(left, recorded, image), IsOk());
+  }
+  ASSERT_THAT(writer.Finish(), IsOk());
+  WriteFile(folder.File("a.mcap"), file.str());
+  const auto source = OpenBagSource({folder.File("a.mcap"), ""}, Side::kLeft);
+  ASSERT_THAT(source, IsOk());
+  EXPECT_EQ((*source)->keys().values, (std::vector<std::int64_t>{0, 0}));
+  const auto frame = (*source)->Next();
+  ASSERT_THAT(frame, IsOk());
+  EXPECT_EQ((*frame)->fault, "");
+  EXPECT_EQ((*frame)->capture_time_ns, 0);
 }
 
 TEST(McapWriterTest, ATornFileKeepsItsWholeChunks) {

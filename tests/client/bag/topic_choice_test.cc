@@ -62,6 +62,8 @@ TEST(TopicChoiceTest, ListsThemWhereItIsNotClear) {
   EXPECT_THAT(ChooseImageTopic({topics[2]}, "", Side::kLeft),
               StatusIs(absl::StatusCode::kInvalidArgument,
                        AllOf(HasSubstr("no image topic"), HasSubstr("/imu"))));
+  EXPECT_THAT(ChooseImageTopic({}, "", Side::kLeft),
+              StatusIs(absl::StatusCode::kInvalidArgument, "it has no topics"));
 }
 
 TEST(TopicChoiceTest, TimesMayBeFarApart) {

@@ -99,6 +99,37 @@ TEST(CameraInstantsTest, BadFramesAreSkippedWithABreakAndReported) {
   EXPECT_EQ(Rows(flow), (std::vector<Row>{{1}, {4}}));
 }
 
+TEST(CameraInstantsTest, AHoleInTimeIsABreakAndReported) {
+  constexpr std::int64_t kMs = 1'000'000;
+  const FrameKeys keys{FrameKeys::Kind::kTime,
+                       {0, 100 * kMs, 200 * kMs, 300 * kMs, 2500 * kMs, 2600 * kMs, 2700 * kMs}};
+  std::vector<std::string> reports;
+  FrameChoice choice;
+  choice.strict = true;
+  choice.report = [&](const std::string& text) { reports.push_back(text); };
+  auto all = Observe(One(7, {}, keys), false, choice);
+  EXPECT_EQ(Rows(all), (std::vector<Row>{{0}, {1}, {2}, {3}, {4, true}, {5}, {6}}));
+  EXPECT_EQ(reports, (std::vector<std::string>{"--left has no frame for 2.2 s before frame 4; no "
+                                               "step spans a part that is missing"}));
+  // Where the first frame behind the hole is left out, too.
+  choice.every = 3;
+  auto third = Observe(One(7, {}, keys), false, choice);
+  EXPECT_EQ(Rows(third), (std::vector<Row>{{0}, {3}, {6, true}}));
+}
+
+// Of two cameras, the instants count.
+TEST(CameraInstantsTest, AHoleOfOneCameraIsOneOfThePair) {
+  constexpr std::int64_t kMs = 1'000'000;
+  Cameras cameras = One(4, {}, {FrameKeys::Kind::kTime, {0, 100 * kMs, 800 * kMs, 900 * kMs}});
+  FrameKeys steady{FrameKeys::Kind::kTime, {}};
+  for (std::int64_t i = 0; i < 10; ++i) steady.values.push_back(i * 100 * kMs);
+  cameras[1] = std::move(One(10, {}, steady)[0]);
+  auto observations = Observe(std::move(cameras), false);
+  const std::vector<Row> rows = Rows(observations);
+  ASSERT_EQ(rows.size(), 10U);
+  for (const Row& row : rows) EXPECT_EQ(row.gap, row.frame == 8) << row.frame;
+}
+
 TEST(CameraInstantsTest, StrictEndsAtABadFrame) {
   FrameChoice choice;
   choice.strict = true;
@@ -160,6 +191,26 @@ TEST(CameraInstantsTest, TakesFramesAtARateAndForATime) {
   EXPECT_EQ(Rows(observations), (std::vector<Row>{{0}, {3}, {5}, {8}}));
   ASSERT_TRUE(observations.Seek(2));
   EXPECT_EQ(Rows(observations), (std::vector<Row>{{5}, {8}}));
+}
+
+// As a damaged header does.
+class VideoThatPromises : public FaultyFolder {
+ public:
+  VideoThatPromises(std::int64_t size, double fps) : FaultyFolder(size, {}), fps_(fps) {}
+  std::int64_t size() const override { return -1; }
+  std::int64_t promised_size() const override { return 1'000'000'000'000; }
+  double fps() const override { return fps_; }
+
+ private:
+  double fps_;
+};
+
+TEST(CameraInstantsTest, VideosThatPromiseTooMuchAreReadSideBySide) {
+  Cameras cameras;
+  cameras[0] = std::make_unique<VideoThatPromises>(4, 10);
+  cameras[1] = std::make_unique<VideoThatPromises>(4, 20);
+  auto observations = Observe(std::move(cameras), false);
+  EXPECT_EQ(Rows(observations), (std::vector<Row>{{0}, {1}, {2}, {3}}));
 }
 
 TEST(CameraInstantsTest, ARateNeedsTimes) {

@@ -39,6 +39,20 @@ TEST(FramePairingTest, NumbersThatHaveNothingInCommonGoByOrder) {
   EXPECT_EQ(pairing.alone, (std::array<std::int64_t, 2>{1, 0}));
 }
 
+TEST(FindHolesTest, ALongIntervalIsAHole) {
+  constexpr std::int64_t kMs = 1'000'000;
+  const auto holes = [](const std::vector<std::int64_t>& times) {
+    return FindHoles({FrameKeys::Kind::kTime, times});
+  };
+  using Indices = std::vector<std::int64_t>;
+  EXPECT_EQ(holes({0, 100 * kMs, 200 * kMs, 801 * kMs, 901 * kMs, 1502 * kMs}), (Indices{3, 5}));
+  // A pause of half a second, five intervals of a slow camera, and no times.
+  EXPECT_EQ(holes({0, 100 * kMs, 200 * kMs, 700 * kMs}), Indices());
+  EXPECT_EQ(holes({0, 1000 * kMs, 2000 * kMs, 7000 * kMs}), Indices());
+  EXPECT_EQ(FindHoles({FrameKeys::Kind::kNumber, {1, 2, 3, 1000 * kMs}}), Indices());
+  EXPECT_EQ(holes({}), Indices());
+}
+
 TEST(FramePairingTest, WithoutKeysGoesByOrder) {
   const auto pairing = PairFrames({}, 2, {FrameKeys::Kind::kNumber, {5, 6, 7}}, 3);
   EXPECT_EQ(pairing.instants, (Instants{{0, 0}, {1, 1}, {-1, 2}}));

@@ -36,6 +36,19 @@ TEST(ImageNamesTest, TimesAndNumbersAreKeys) {
   EXPECT_EQ(numbers.values, (std::vector<std::int64_t>{7, 8}));
 }
 
+// Of milliseconds, microseconds and nanoseconds, the largest that fit into 64 bits.
+TEST(ImageNamesTest, NumbersTooLargeForAClockAreNumbers) {
+  EXPECT_EQ(*ParseTime("9223372036854"), 9223372036854000000);
+  EXPECT_EQ(*ParseTime("9223372036854775807"), 9223372036854775807);
+  EXPECT_FALSE(ParseTime("9223372036855").has_value());
+  EXPECT_FALSE(ParseTime("99999999999999999").has_value());
+  EXPECT_FALSE(ParseTime("9223372036854775808").has_value());
+  EXPECT_EQ(KeysOfNames({"99999999999999998.png", "99999999999999999.png"}).kind,
+            FrameKeys::Kind::kNumber);
+  EXPECT_EQ(KeysOfNames({"100000000000.png", "99999999999999999.png"}).kind,
+            FrameKeys::Kind::kNumber);
+}
+
 TEST(ImageNamesTest, NamesThatDoNotAscendHaveNoKeys) {
   EXPECT_EQ(KeysOfNames({"a1_5.png", "a2_5.png"}).kind, FrameKeys::Kind::kOrder);
   EXPECT_EQ(KeysOfNames({"a.png", "b.png"}).kind, FrameKeys::Kind::kOrder);

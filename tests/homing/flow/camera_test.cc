@@ -95,6 +95,35 @@ TEST(UndistortTest, IsTheInverseOverTheImage) {
   }
 }
 
+// Each of the eight parameters by itself, at (0.5, 0.2): r2 = 0.29, r4 = 0.0841, r6 = 0.024389.
+TEST(DistortTest, EachParameterAgreesWithAHandComputedValue) {
+  const std::array<Eigen::Vector2d, 8> expected = {{{0.5 * 1.029, 0.2 * 1.029},
+                                                    {0.5 * 1.00841, 0.2 * 1.00841},
+                                                    {0.5 + 0.02, 0.2 + 0.037},
+                                                    {0.5 + 0.079, 0.2 + 0.02},
+                                                    {0.5 * 1.0024389, 0.2 * 1.0024389},
+                                                    {0.5 / 1.029, 0.2 / 1.029},
+                                                    {0.5 / 1.00841, 0.2 / 1.00841},
+                                                    {0.5 / 1.0024389, 0.2 / 1.0024389}}};
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    Distortion lens{};
+    lens[i] = 0.1;
+    const Eigen::Vector2d shown = Distort({0.5, 0.2}, lens);
+    EXPECT_NEAR((shown - expected[i]).norm(), 0, 1e-15) << i;
+  }
+}
+
+// A fisheye at 45 degrees: a = 0.7853982, a^3 = 0.4844730, a^5 = 0.2988474, a^7 = 0.1843441,
+// a^9 = 0.1137127.
+TEST(DistortTest, EachParameterOfAFisheyeAgreesWithAHandComputedValue) {
+  const std::array<double, 4> powers = {0.4844730, 0.2988474, 0.1843441, 0.1137127};
+  for (std::size_t i = 0; i < powers.size(); ++i) {
+    Distortion lens{};
+    lens[i] = 0.1;
+    EXPECT_NEAR(DistortFisheye({1, 0}, lens).x(), 0.7853982 + 0.1 * powers[i], 1e-7) << i;
+  }
+}
+
 // At r2 = 0.25 the factor is (1 + 0.1 * 0.25) / (1 + 0.2 * 0.25 + 0.4 * 0.0625) = 1.025 / 1.075.
 TEST(UndistortTest, TheRadialPartMayHaveADivisor) {
   const Distortion lens{0.1, 0, 0, 0, 0, 0.2, 0.4, 0};
