@@ -9,6 +9,8 @@ stop_server() {
 }
 # start COMMAND...: a server, which says that it is "listening on" $address.
 start() {
+  # Else the address of the server before could be read.
+  : >"$work/server.log"
   "$@" >"$work/server.log" 2>&1 </dev/null &
   server=$!
   address=
@@ -49,7 +51,7 @@ load() {
     [ -n "$ticks" ] || ! grep -q 'robots are connected' "$work/bench.log" || ticks=$(cpu_ticks)
     sleep 0.2
   done
-  wait "$client" || { cat "$work/bench.log" >&2; }
+  wait "$client" || cat "$work/bench.log" >&2
   for counter in p99_ms dropped late per_second first_answer_ms settled_p99_ms; do
     keep "$run" "$counter" "$(field "$work/bench" "$counter")"
   done

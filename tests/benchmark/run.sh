@@ -1,9 +1,10 @@
 #!/bin/sh
 # Measures speed beside other programs; prints a line for each bound (name value bound ok|short|unsure) and writes
 # docs/performance.md. Exits 1 if any is short.
-# usage: tests/benchmark/run.sh [--quick] [--repeats N] [--only PART]
+# usage: tests/benchmark/run.sh [--quick] [--repeats N] [--seconds N] [--only PART]
 #   --quick      smaller sizes and fewer robots
 #   --repeats N  of each load (default 5)
+#   --seconds N  of each load (default 30)
 #   --only PART  loads, growth, starts, or a regular expression of benchmarks such as flow_grpc
 # With --quick or --only the report goes to build/performance/ instead.
 # HOMING_BUILD names a build with homing-server, homing-bench and homing_benchmark (default: build/dev, built if need be).
@@ -25,6 +26,7 @@ while [ $# -gt 0 ]; do
     --quick) quick=--quick robots=100 seconds=5 ramp=2 repeats=2 ;;
     --only) only=$2; shift ;;
     --repeats) repeats=$2; shift ;;
+    --seconds) seconds=$2; shift ;;
     *) echo "run.sh: unknown: $1" >&2; exit 2 ;;
   esac
   shift
