@@ -70,7 +70,7 @@ GrowthReport ReportGrowth(const Results& results) {
   GrowthReport report;
   report.text = absl::StrCat(
       "\n## Growth\n\nRobots at 10 observations a second each, on one server: an echo, recording, "
-      "and localising on 10\njourneys of 2,000 steps, begun one after the other within 10 s. The load client "
+      "and localising on 10\njourneys of 2,000 steps, begun one after the other within 1 s. The load client "
       "shares the processors.\n\n| robots | load | answered a second | p99, ms | processor us an "
       "observation | server, MiB | dropped |\n|---|---|---|---|---|---|---|\n",
       rows);

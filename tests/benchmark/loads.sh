@@ -113,7 +113,7 @@ run_growth() {
     load "growth_record/$count" --robots "$count"
     stop_server
     start_server shared
-    load "growth_localize/$count" --robots "$count" --localize --journeys 10 --steps 2000 --ramp 10
+    load "growth_localize/$count" --robots "$count" --localize --journeys 10 --steps 2000 --ramp 1
     stop_server
     rm -f "$work"/plain*
   done
