@@ -38,6 +38,16 @@ struct LoadCounts {
   // Of the observations scheduled kSettling or more after the robot's first.
   Latencies settled;
   absl::Status status;
+
+  // All but the status.
+  void Add(const LoadCounts& other) {
+    sent += other.sent;
+    answered += other.answered;
+    late += other.late;
+    latency.Add(other.latency);
+    first.Add(other.first);
+    settled.Add(other.settled);
+  }
 };
 
 // The answered observation; -1: none (the answer to the config).

@@ -191,12 +191,7 @@ class Drive {
     LoadResult result;
     for (const auto& robot : robots_) {
       const LoadCounts counts = robot->End();
-      result.counts.sent += counts.sent;
-      result.counts.answered += counts.answered;
-      result.counts.late += counts.late;
-      result.counts.latency.Add(counts.latency);
-      result.counts.first.Add(counts.first);
-      result.counts.settled.Add(counts.settled);
+      result.counts.Add(counts);
       if (!counts.status.ok()) {
         ++result.failed_robots;
         result.counts.status = counts.status;

@@ -70,9 +70,9 @@ GrowthReport ReportGrowth(const Results& results) {
   GrowthReport report;
   report.text = absl::StrCat(
       "\n## Growth\n\nRobots at 10 observations a second each, on one server: an echo, recording, "
-      "and localising on 10\njourneys of 2,000 steps, begun one after the other within 1 s. The load client "
-      "shares the processors.\n\n| robots | load | answered a second | p99, ms | processor us an "
-      "observation | server, MiB | dropped |\n|---|---|---|---|---|---|---|\n",
+      "and localising on 10\njourneys of 2,000 steps, begun one after the other within 1 s. "
+      "The load client shares the\nprocessors.\n\n| robots | load | answered a second | p99, ms | "
+      "processor us an observation | server, MiB | dropped |\n|---|---|---|---|---|---|---|\n",
       rows);
   for (const Quantity& quantity : kQuantities) {
     const std::string picture = Plot(results, quantity);

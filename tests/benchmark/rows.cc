@@ -122,7 +122,8 @@ void AddLoadRows(Table& table) {
   table.AtMost(at_once + "_first_answer_ms", table.Counter(at_once, "first_answer_ms"), 2000,
                "all begin in one instant: the last robot's first answer");
   table.AtMost(at_once + "_settled_p99_ms", table.Counter(at_once, "settled_p99_ms"), 100,
-               "all begin in one instant: 99th percentile of what is due 10 s later and after");
+               "all begin in one instant: 99th percentile of observations scheduled 10 s after the "
+               "first and later");
   table.AtMost(at_once + "_dropped", table.Counter(at_once, "dropped"), 0,
                "observations not answered");
 }
