@@ -28,6 +28,16 @@ stage_proto() {
   "$buf/node_modules/.bin/buf" lint proto
 }
 
+# The manifests against the types of the Kubernetes API.
+stage_manifests() {
+  command -v npm >/dev/null || skip "npm is not installed, so the API's types cannot be fetched"
+  command -v kubectl >/dev/null || skip "kubectl is not installed"
+  local status=0
+  sh tests/kubernetes/run.sh || status=$?
+  [ "$status" -ne 3 ] || skip "the API's types cannot be fetched from the npm registry"
+  return "$status"
+}
+
 # The server that the stage of the tests built.
 built_server() {
   local root

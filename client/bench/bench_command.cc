@@ -30,6 +30,8 @@ nlohmann::ordered_json BenchJson(const LoadOptions& options, const LoadResult& r
     line[absl::StrFormat("p%g_ms", share * 100)] = counts.latency.PercentileMs(share);
   }
   line["max_ms"] = counts.latency.max_ms();
+  line["first_answer_ms"] = counts.first.max_ms();
+  line["settled_p99_ms"] = counts.settled.PercentileMs(0.99);
   return line;
 }
 

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <deque>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -22,6 +23,9 @@ namespace homing::client {
 
 using LoadClock = std::chrono::steady_clock;
 
+// How long a fleet that begins in one instant may take until its latencies are as usual.
+inline constexpr std::chrono::seconds kSettling{10};
+
 // The result of one robot, or of all.
 struct LoadCounts {
   std::int64_t sent = 0;
@@ -29,7 +33,21 @@ struct LoadCounts {
   // Sent more than 10 ms late: the client or the link could not keep up.
   std::int64_t late = 0;
   Latencies latency;
+  // Of each robot's first observation.
+  Latencies first;
+  // Of the observations scheduled kSettling or more after the robot's first.
+  Latencies settled;
   absl::Status status;
+
+  // All but the status.
+  void Add(const LoadCounts& other) {
+    sent += other.sent;
+    answered += other.answered;
+    late += other.late;
+    latency.Add(other.latency);
+    first.Add(other.first);
+    settled.Add(other.settled);
+  }
 };
 
 // The answered observation; -1: none (the answer to the config).
@@ -69,6 +87,7 @@ class LoadRobot {
 
   // Schedules the next observation for `time`.
   void Due(LoadClock::time_point time) {
+    if (!begin_) begin_ = time;
     due_.push_back(time);
     SendDue();
   }
@@ -121,7 +140,10 @@ class LoadRobot {
       return call_->Cancel();
     }
     if (AnsweredSequence(response_) < 0 || waiting_.empty()) return;
-    counts_.latency.Add(now_ - waiting_.front());
+    const auto latency = now_ - waiting_.front();
+    if (counts_.answered == 0) counts_.first.Add(latency);
+    if (waiting_.front() - *begin_ >= kSettling) counts_.settled.Add(latency);
+    counts_.latency.Add(latency);
     waiting_.pop_front();
     ++counts_.answered;
   }
@@ -131,6 +153,8 @@ class LoadRobot {
   Request numbered_;
   Response response_;
   LoadClock::time_point now_;
+  // The scheduled time of the first observation.
+  std::optional<LoadClock::time_point> begin_;
   // Scheduled times of observations that are not sent, and of those not answered.
   std::deque<LoadClock::time_point> due_;
   std::deque<LoadClock::time_point> waiting_;

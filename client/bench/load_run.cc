@@ -191,10 +191,7 @@ class Drive {
     LoadResult result;
     for (const auto& robot : robots_) {
       const LoadCounts counts = robot->End();
-      result.counts.sent += counts.sent;
-      result.counts.answered += counts.answered;
-      result.counts.late += counts.late;
-      result.counts.latency.Add(counts.latency);
+      result.counts.Add(counts);
       if (!counts.status.ok()) {
         ++result.failed_robots;
         result.counts.status = counts.status;
@@ -223,7 +220,7 @@ std::vector<std::string> RequestsOf(const LoadScene& scene) {
 template <typename Request, typename Response, typename Configure>
 absl::StatusOr<LoadResult> DriveAll(const ConnectionOptions& connection, const LoadOptions& options,
                                     const std::string& method, const Configure& configure,
-                                    const std::vector<LoadScene>& scenes,
+                                    const std::vector<LoadScene>& scenes, const LoadLog& log,
                                     const std::stop_token& stop) {
   HOMING_ASSIGN_OR_RETURN(const Http2Endpoint endpoint, Http2Endpoint::Make(connection));
   std::vector<std::vector<std::string>> requests;
@@ -236,11 +233,12 @@ absl::StatusOr<LoadResult> DriveAll(const ConnectionOptions& connection, const L
         auto robot, (LoadRobot<Request, Response>::Start(endpoint, method, configure(i), &sent)));
     drive.Add(std::move(robot));
   }
+  log("all robots are connected");
   return drive.Run(stop);
 }
 
 absl::StatusOr<LoadResult> Record(const ConnectionOptions& connection, const LoadOptions& options,
-                                  const std::vector<LoadScene>& scenes,
+                                  const std::vector<LoadScene>& scenes, const LoadLog& log,
                                   const std::stop_token& stop) {
   const auto configure = [&](int robot) {
     v1::RecordJourneyRequest config;
@@ -249,11 +247,11 @@ absl::StatusOr<LoadResult> Record(const ConnectionOptions& connection, const Loa
     return config;
   };
   return DriveAll<v1::RecordJourneyRequest, v1::RecordJourneyResponse>(
-      connection, options, "/homing.v1.JourneyService/RecordJourney", configure, scenes, stop);
+      connection, options, "/homing.v1.JourneyService/RecordJourney", configure, scenes, log, stop);
 }
 
 absl::StatusOr<LoadResult> Localize(const ConnectionOptions& connection, const LoadOptions& options,
-                                    const std::vector<LoadScene>& scenes,
+                                    const std::vector<LoadScene>& scenes, const LoadLog& log,
                                     const std::stop_token& stop) {
   const auto configure = [&](int robot) {
     v1::LocalizeRequest config;
@@ -262,7 +260,7 @@ absl::StatusOr<LoadResult> Localize(const ConnectionOptions& connection, const L
     return config;
   };
   return DriveAll<v1::LocalizeRequest, v1::LocalizeResponse>(
-      connection, options, "/homing.v1.HomingService/Localize", configure, scenes, stop);
+      connection, options, "/homing.v1.HomingService/Localize", configure, scenes, log, stop);
 }
 
 }  // namespace
@@ -279,8 +277,7 @@ absl::Status Validate(const LoadOptions& options) {
 }
 
 absl::StatusOr<LoadResult> RunLoad(const ConnectionOptions& connection, const LoadOptions& options,
-                                   const std::function<void(const std::string&)>& log,
-                                   const std::stop_token& stop) {
+                                   const LoadLog& log, const std::stop_token& stop) {
   HOMING_RETURN_IF_ERROR(Validate(options));
   RaiseOpenFileLimit();
   HOMING_ASSIGN_OR_RETURN(const Connection first, Connection::Open(connection));
@@ -291,10 +288,10 @@ absl::StatusOr<LoadResult> RunLoad(const ConnectionOptions& connection, const Lo
     HOMING_RETURN_IF_ERROR(RecordJourneys(first, options, scenes, stop));
     if (options.prepare_only) return LoadResult{};
     HOMING_ASSIGN_OR_RETURN(const std::vector<LoadScene> again, MakeScenes(options, kSecondDrive));
-    return Localize(connection, options, again, stop);
+    return Localize(connection, options, again, log, stop);
   }
   HOMING_RETURN_IF_ERROR(CreateJourneys(first, options, stop));
-  return Record(connection, options, scenes, stop);
+  return Record(connection, options, scenes, log, stop);
 }
 
 }  // namespace homing::client

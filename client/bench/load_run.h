@@ -48,10 +48,11 @@ struct LoadResult {
   int failed_robots = 0;
 };
 
+using LoadLog = std::function<void(const std::string&)>;
+
 // Errors of single robots are in the result. CANCELLED: stopped. Errors of the calls.
 absl::StatusOr<LoadResult> RunLoad(const ConnectionOptions& connection, const LoadOptions& options,
-                                   const std::function<void(const std::string&)>& log,
-                                   const std::stop_token& stop);
+                                   const LoadLog& log, const std::stop_token& stop);
 
 }  // namespace homing::client
 

@@ -197,19 +197,29 @@ Fit SolveRobustly(const System& system) {
 
 // Weighted least squares on the vertical components alone.
 void FitVertical(const System& system, const std::vector<double>& weights, RotationFit& fit) {
-  Eigen::Matrix3d normal = kDamping * Eigen::Matrix3d::Identity();
-  Eigen::Vector3d right = Eigen::Vector3d::Zero();
-  double squares = 0;
-  double sum = 0;
+  // The sums of the normal equations, apart: as parts of a matrix each would be written to memory
+  // and read again at once, in pairs, for which the processor waits.
+  double aa = kDamping, bb = kDamping, cc = kDamping, ab = 0, ac = 0, bc = 0;
+  double av = 0, bv = 0, cv = 0, squares = 0, sum = 0;
   for (std::size_t i = 0; i < system.size; ++i) {
-    const Eigen::Vector3d row(system.x[i] * system.y[i], 1 + system.y[i] * system.y[i],
-                              -system.x[i]);
-    const Eigen::Vector3d weighted = weights[i] * row;
-    normal += weighted * row.transpose();
-    right += weighted * system.v[i];
-    squares += weights[i] * system.v[i] * system.v[i];
+    const double x = system.x[i], y = system.y[i], v = system.v[i];
+    const double a = x * y, b = 1 + y * y, c = -x;
+    const double wa = weights[i] * a, wb = weights[i] * b, wc = weights[i] * c;
+    aa += wa * a;
+    ab += wa * b;
+    ac += wa * c;
+    bb += wb * b;
+    bc += wb * c;
+    cc += wc * c;
+    av += wa * v;
+    bv += wb * v;
+    cv += wc * v;
+    squares += weights[i] * v * v;
     sum += weights[i];
   }
+  Eigen::Matrix3d normal;
+  normal << aa, ab, ac, ab, bb, bc, ac, bc, cc;
+  const Eigen::Vector3d right(av, bv, cv);
   const Eigen::Matrix3d inverse = normal.inverse();
   const Eigen::Vector3d rotation = inverse * right;
   // Weighted sum of the squared residuals.

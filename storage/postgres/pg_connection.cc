@@ -7,11 +7,13 @@
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
+#include <map>
 #include <utility>
 #include <vector>
 
 #include "absl/strings/ascii.h"
 #include "absl/strings/str_cat.h"
+#include "absl/strings/str_split.h"
 #include "homing/base/status_macros.h"
 #include "storage/postgres/pg_status.h"
 
@@ -19,6 +21,9 @@ namespace homing::storage::postgres {
 namespace {
 
 constexpr int kBinary = 1;
+// For one of the hosts to answer, at most: a machine that is cut off answers nothing. libpq takes
+// no less.
+constexpr char kHostSeconds[] = "2";
 
 std::string Trimmed(const char* message) {
   return std::string(absl::StripAsciiWhitespace(message == nullptr ? "" : message));
@@ -55,41 +60,55 @@ std::string PgRows::Text(int row, int column) const {
           static_cast<std::size_t>(PQgetlength(result_.get(), row, column))};
 }
 
-absl::StatusOr<std::unique_ptr<PgConnection>> PgConnection::Open(const std::string& url,
-                                                                 Access access, Deadline deadline) {
-  // The parameters before dbname are defaults, which the URL may override.
-  const char* const names[] = {"application_name", "target_session_attrs", "dbname", nullptr};
-  const char* const values[] = {
-      "homing-server", access == Access::kReadWrite ? "read-write" : "any", url.c_str(), nullptr};
+std::vector<PgHost> HostsOf(const std::string& url) {
+  std::map<std::string, std::vector<std::string>> lists;
+  PQconninfoOption* const options = PQconninfoParse(url.c_str(), nullptr);
+  for (const PQconninfoOption* each = options; each != nullptr && each->keyword != nullptr;
+       ++each) {
+    if (each->val != nullptr) lists[each->keyword] = absl::StrSplit(each->val, ',');
+  }
+  PQconninfoFree(options);
+  // One port may serve all hosts.
+  const auto part = [&lists](const char* keyword, std::size_t i) -> std::string {
+    const std::vector<std::string>& list = lists[keyword];
+    return list.empty() ? "" : list[std::min(i, list.size() - 1)];
+  };
+  std::vector<PgHost> hosts;
+  for (std::size_t i = 0; i < std::max(lists["host"].size(), lists["hostaddr"].size()); ++i) {
+    hosts.push_back({part("host", i), part("hostaddr", i), part("port", i)});
+  }
+  return hosts;
+}
+
+absl::StatusOr<std::unique_ptr<PgConnection>> PgConnection::Open(
+    const std::string& url, Access access, const std::optional<PgHost>& host) {
+  // The parameters before dbname are defaults, which the URL may override. libpq would print
+  // warnings of a role's or database's settings, so they are not sent.
+  std::vector<const char*> names = {"application_name", "target_session_attrs", "connect_timeout",
+                                    "options", "dbname"};
+  std::vector<const char*> values = {"homing-server",
+                                     access == Access::kReadWrite ? "read-write" : "any",
+                                     kHostSeconds, "-c client_min_messages=error", url.c_str()};
+  if (host) {
+    names.insert(names.end(), {"host", "hostaddr", "port"});
+    values.insert(values.end(), {host->host.c_str(), host->hostaddr.c_str(), host->port.c_str()});
+  }
+  names.push_back(nullptr);
+  values.push_back(nullptr);
+  // Blocks: only then does libpq limit the time of each host, and go on to the next one.
   std::unique_ptr<PgConnection> connection(
-      new PgConnection(PQconnectStartParams(names, values, /*expand_dbname=*/1)));
-  if (connection->connection_ == nullptr)
-    return absl::ResourceExhaustedError("store: out of memory");
-  HOMING_RETURN_IF_ERROR(connection->Connect(deadline));
+      new PgConnection(PQconnectdbParams(names.data(), values.data(), /*expand_dbname=*/1)));
+  PGconn* const opened = connection->connection_;
+  if (opened == nullptr) return absl::ResourceExhaustedError("store: out of memory");
+  if (PQstatus(opened) != CONNECTION_OK) {
+    return StatusOfConnection(Trimmed(PQerrorMessage(opened)));
+  }
+  PQsetNoticeReceiver(opened, &NoteWarning, connection.get());
+  PQsetnonblocking(opened, 1);
   return connection;
 }
 
 PgConnection::~PgConnection() { PQfinish(connection_); }
-
-absl::Status PgConnection::Connect(Deadline deadline) {
-  // libpq would print them.
-  PQsetNoticeReceiver(connection_, &NoteWarning, this);
-  PostgresPollingStatusType wanted = PGRES_POLLING_WRITING;
-  while (wanted != PGRES_POLLING_OK) {
-    if (wanted == PGRES_POLLING_FAILED || PQstatus(connection_) == CONNECTION_BAD) {
-      return StatusOfConnection(Trimmed(PQerrorMessage(connection_)));
-    }
-    const short events = wanted == PGRES_POLLING_READING ? POLLIN : POLLOUT;
-    if (!AwaitSocket(PQsocket(connection_), events, deadline)) {
-      return absl::UnavailableError("store: the database does not answer a new connection");
-    }
-    wanted = PQconnectPoll(connection_);
-  }
-  PQsetnonblocking(connection_, 1);
-  // Warnings of a role's or database's settings concern no commit.
-  warned_ = false;
-  return absl::OkStatus();
-}
 
 void PgConnection::NoteWarning(void* connection, const PGresult* notice) {
   const char* const severity = PQresultErrorField(notice, PG_DIAG_SEVERITY_NONLOCALIZED);

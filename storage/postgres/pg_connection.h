@@ -8,8 +8,10 @@
 #include <chrono>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <unordered_map>
+#include <vector>
 
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
@@ -51,15 +53,27 @@ struct PgRow {
   int row = 0;
 };
 
+// One of the hosts of a URL, each as in libpq's parameter of that name; empty: not set.
+struct PgHost {
+  std::string host;
+  std::string hostaddr;
+  std::string port;
+};
+
+// All of a URL; none if it is not a valid one.
+std::vector<PgHost> HostsOf(const std::string& url);
+
 // Not thread-safe.
 class PgConnection {
  public:
   enum class Access { kReadWrite, kReadOnly };
 
-  // `url` as libpq reads it; of several hosts the first that accepts. FAILED_PRECONDITION: no such
-  // database or no right to it; INVALID_ARGUMENT: the URL; UNAVAILABLE.
-  static absl::StatusOr<std::unique_ptr<PgConnection>> Open(const std::string& url, Access access,
-                                                            Deadline deadline);
+  // `url` as libpq reads it; of several hosts the first that accepts, each of which has two seconds
+  // unless the URL sets connect_timeout. FAILED_PRECONDITION: no such database or no right to it;
+  // INVALID_ARGUMENT: the URL; UNAVAILABLE.
+  // With `host`, only that one.
+  static absl::StatusOr<std::unique_ptr<PgConnection>> Open(
+      const std::string& url, Access access, const std::optional<PgHost>& host = std::nullopt);
   ~PgConnection();
   PgConnection(const PgConnection&) = delete;
   PgConnection& operator=(const PgConnection&) = delete;
@@ -78,7 +92,6 @@ class PgConnection {
 
  private:
   explicit PgConnection(PGconn* connection) : connection_(connection) {}
-  absl::Status Connect(Deadline deadline);
   absl::Status Prepare(const char* sql, const PgArguments& arguments, Deadline deadline);
   // Waits until a result can be taken without blocking.
   absl::Status AwaitResult(Deadline deadline);

@@ -8,11 +8,13 @@ namespace homing::storage::postgres {
 namespace {
 
 // Another server that is alive has written the journey in the last 15 s for a writer of another
-// program. All times are the database's.
+// program. All times are the database's; those in its future come from a primary whose clock was
+// ahead, and hold nothing.
 #define HOMING_PG_LEASE_HELD                                                     \
   "(server_id <> $4 AND split_part(writer_id, '#', 1) <> split_part($3, '#', 1)" \
-  " AND written_at > now() - interval '15 s' AND EXISTS (SELECT FROM servers s"  \
-  " WHERE s.server_id = j.server_id AND s.beat_at > now() - interval '15 s'))"
+  " AND written_at BETWEEN now() - interval '15 s' AND now() + interval '15 s'"  \
+  " AND EXISTS (SELECT FROM servers s WHERE s.server_id = j.server_id"           \
+  " AND s.beat_at BETWEEN now() - interval '15 s' AND now() + interval '15 s'))"
 
 constexpr char kCheckLease[] =
     "SELECT CASE WHEN " HOMING_PG_LEASE_HELD

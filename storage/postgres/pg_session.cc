@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
 #include "homing/base/status_macros.h"
 
@@ -13,20 +14,40 @@ namespace {
 constexpr char kSettings[] =
     "SET lock_timeout = '2s'; SET idle_in_transaction_session_timeout = '3s';"
     " SET client_min_messages = 'warning'";
-// pg_control_checkpoint() still shows the old timeline right after a promotion; the name of the
-// current log file does not.
+// Sets synchronous_commit to the value that is checked: a later change of the configuration then
+// leaves this connection alone. pg_control_checkpoint() still shows the old timeline right after a
+// promotion; the name of the current log file does not.
 constexpr char kDescribe[] =
-    "SELECT current_setting('synchronous_commit'), current_setting('fsync'),"
+    "SELECT set_config('synchronous_commit', current_setting('synchronous_commit'), false),"
+    " current_setting('fsync'),"
     " current_setting('server_encoding'), CASE WHEN pg_is_in_recovery() THEN 0::bigint ELSE"
     " ('x' || substr(pg_walfile_name(pg_current_wal_lsn()), 1, 8))::bit(32)::bigint END";
 
 // Reading a long journey takes half a second.
 constexpr std::chrono::milliseconds kReadTime{30'000};
 
+constexpr char kReplaced[] = "store: the database was replaced by another: ";
+
+bool IsReplaced(const absl::Status& status) {
+  return absl::StartsWith(status.message(), kReplaced);
+}
+
 }  // namespace
 
 absl::StatusOr<std::unique_ptr<PgConnection>> PgDatabase::Connect(Deadline deadline) {
-  HOMING_ASSIGN_OR_RETURN(auto connection, PgConnection::Open(url_, access_, deadline));
+  auto connection = ConnectTo(std::nullopt, deadline);
+  if (!IsReplaced(connection.status())) return connection;
+  // libpq would choose the replaced primary each time.
+  for (const PgHost& host : HostsOf(url_)) {
+    auto other = ConnectTo(host, deadline);
+    if (other.ok()) return other;
+  }
+  return connection;
+}
+
+absl::StatusOr<std::unique_ptr<PgConnection>> PgDatabase::ConnectTo(
+    const std::optional<PgHost>& host, Deadline deadline) {
+  HOMING_ASSIGN_OR_RETURN(auto connection, PgConnection::Open(url_, access_, host));
   HOMING_RETURN_IF_ERROR(connection->Execute(kSettings, deadline));
   HOMING_ASSIGN_OR_RETURN(const PgRows rows, connection->Run(kDescribe, {}, deadline));
   if (rows.Text(0, 2) != "UTF8") {
@@ -50,8 +71,8 @@ absl::Status PgDatabase::CheckTimeline(std::int64_t timeline) {
   while (timeline > highest && !highest_timeline_.compare_exchange_weak(highest, timeline)) {
   }
   if (timeline >= highest) return absl::OkStatus();
-  return absl::UnavailableError(absl::StrCat("store: the database is on timeline ", timeline,
-                                             ", and one on timeline ", highest, " replaced it"));
+  return absl::UnavailableError(absl::StrCat(kReplaced, "it is on timeline ", timeline,
+                                             ", and the one in use on timeline ", highest));
 }
 
 absl::StatusOr<std::unique_ptr<PgConnection>> PgPool::Take(Deadline deadline) {

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,12 +24,14 @@ class PgDatabase {
       : url_(std::move(url)), access_(access) {}
 
   // FAILED_PRECONDITION: synchronous_commit is off or local, or fsync is off: an acknowledged step
-  // could be lost; the encoding is not UTF-8. UNAVAILABLE: no host accepts writes; a primary whose
-  // timeline is lower than one seen before, that is one that was replaced.
+  // could be lost; the encoding is not UTF-8. UNAVAILABLE: no host accepts writes but a primary
+  // whose timeline is lower than one seen before, that is one that was replaced.
   absl::StatusOr<std::unique_ptr<PgConnection>> Connect(Deadline deadline);
   PgConnection::Access access() const { return access_; }
 
  private:
+  absl::StatusOr<std::unique_ptr<PgConnection>> ConnectTo(const std::optional<PgHost>& host,
+                                                          Deadline deadline);
   absl::Status CheckTimeline(std::int64_t timeline);
 
   const std::string url_;

@@ -1,7 +1,7 @@
 // Measures everything, interleaved; prints a line a bound; writes the report. Run by run.sh.
 // usage: homing_benchmark [--quick] [--report FILE] [--load FILE] [--command TEXT] [--filter REGEX]
 // or: homing_benchmark --copy-journeys DATABASE NUMBER
-// or: homing_benchmark --echo    an echo for load clients, until it is killed
+// or: homing_benchmark --echo [CERT KEY]    an echo for load clients, with TLS, until it is killed
 // --load names a file of lines "RUN COUNTER VALUE", one a repetition, with the results of load
 // clients.
 #include <benchmark/benchmark.h>
@@ -85,24 +85,28 @@ bool CopyJourneys(const std::string& path, int journeys) {
   bool ok = sqlite3_open(path.c_str(), &database) == SQLITE_OK;
   const std::string numbers = absl::StrCat(
       "WITH RECURSIVE n(i) AS (SELECT 2 UNION ALL SELECT i + 1 FROM n WHERE i < ", journeys, ") ");
-  std::string places;
+  // Of steps, and of journeys, but for the keys.
+  std::string step = "sequence, left_profile, right_profile";
   for (const char* place : {"left1", "left2", "right1", "right2"}) {
     for (const char* value : {"landmark", "x", "y", "count", "spread"}) {
-      absl::StrAppend(&places, place, "_", value, ", ");
+      absl::StrAppend(&step, ", ", place, "_", value);
     }
   }
+  const std::string journey =
+      "state, writer_id, readers, input, next_sequence, resend_from, create_time_ns, "
+      "start_time_ns, end_time_ns, step_count, landmark_count, fingerprint_count";
   const std::vector<std::string> statements = {
       "PRAGMA journal_mode=WAL",
       "PRAGMA synchronous=OFF",
       "BEGIN",
-      absl::StrCat("INSERT INTO journeys ", numbers,
-                   "SELECT i, 'robots/r' || i || '/journeys/copy', state, writer_id, readers, ",
-                   "input, next_sequence, create_time_ns, start_time_ns, end_time_ns, step_count, ",
-                   "landmark_count, fingerprint_count FROM journeys, n WHERE journey_id = 1"),
+      absl::StrCat("INSERT INTO journeys (journey_id, name, ", journey, ") ", numbers,
+                   "SELECT i, 'robots/r' || i || '/journeys/copy', ", journey,
+                   " FROM journeys, n WHERE journey_id = 1"),
       absl::StrCat("INSERT INTO journey_settings ", numbers,
                    "SELECT i, settings FROM journey_settings, n WHERE journey_id = 1"),
-      absl::StrCat("INSERT INTO steps ", numbers, "SELECT step_id + ((i - 1) << 25), ", places,
-                   "left_profile, right_profile FROM n, steps WHERE journey_id = 1"),
+      absl::StrCat("INSERT INTO steps (step_id, ", step, ") ", numbers,
+                   "SELECT step_id + ((i - 1) << 25), ", step,
+                   " FROM n, steps WHERE journey_id = 1"),
       "COMMIT"};
   for (const std::string& sql : statements) {
     char* message = nullptr;
@@ -114,9 +118,10 @@ bool CopyJourneys(const std::string& path, int journeys) {
   return ok;
 }
 
-int Echo() {
+int Echo(const EchoTls& tls) {
   RaiseOpenFileLimit();
-  const std::unique_ptr<StreamServer> server = StartEchoServer();
+  const std::unique_ptr<StreamServer> server = StartEchoServer(tls);
+  if (server == nullptr) return 1;
   std::printf("listening on %s\n", server->address().c_str());
   std::fflush(stdout);
   ::pause();
@@ -152,7 +157,10 @@ int Run(const Arguments& arguments) {
 
 int main(int argc, char** argv) {
   homing::SkipLockChecks();
-  if (argc == 2 && std::string(argv[1]) == "--echo") return homing::benchmarks::Echo();
+  if ((argc == 2 || argc == 4) && std::string(argv[1]) == "--echo") {
+    return homing::benchmarks::Echo(argc == 4 ? homing::benchmarks::EchoTls{argv[2], argv[3]}
+                                              : homing::benchmarks::EchoTls{});
+  }
   if (argc == 4 && std::string(argv[1]) == "--copy-journeys") {
     return homing::benchmarks::CopyJourneys(argv[2], std::atoi(argv[3])) ? 0 : 1;
   }

@@ -1,6 +1,13 @@
 #include "tests/benchmark/results.h"
 
+#include <algorithm>
+
 namespace homing::benchmarks {
+
+double MedianOf(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  return values[values.size() / 2];
+}
 
 const Series& Results::Of(const std::string& name) const {
   static const Series* const none = new Series;

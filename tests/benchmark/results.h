@@ -10,6 +10,9 @@
 
 namespace homing::benchmarks {
 
+// REQUIRES: not empty.
+double MedianOf(std::vector<double> values);
+
 // Of one benchmark, in the order of its repetitions.
 struct Series {
   // Seconds an iteration.

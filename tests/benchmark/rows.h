@@ -36,6 +36,9 @@ Row Judge(Row row, const std::vector<double>& values);
 // a[i] / b[i], as far as both go.
 std::vector<double> Quotients(const std::vector<double>& a, const std::vector<double>& b);
 
+// a[i] - b[i], as far as both go.
+std::vector<double> Differences(const std::vector<double>& a, const std::vector<double>& b);
+
 // The rows for these results; values that were not measured have no row.
 std::vector<Row> AllRows(const Results& results);
 

@@ -4,6 +4,7 @@
 #include <grpcpp/grpcpp.h>
 
 #include <atomic>
+#include <chrono>
 #include <functional>
 #include <opencv2/core.hpp>
 #include <string>
@@ -28,6 +29,8 @@ constexpr int kVectors = 200;
 // Most observations sent and not yet acknowledged, as in the client library.
 constexpr int kWindow = 256;
 const cv::Size kSize(640, 480);
+// So many that the interval is narrow.
+constexpr int kRepetitions = 31;
 
 int Streams() { return static_cast<int>(std::max(1U, std::thread::hardware_concurrency())); }
 
@@ -85,7 +88,8 @@ bool Stream(const std::string& address, const std::string& journey, const Reques
   return stream->Finish().ok();
 }
 
-bool Create(const std::string& address, const std::string& robot, const std::string& journey) {
+bool CreateJourney(const std::string& address, const std::string& robot,
+                   const std::string& journey) {
   const auto stub =
       v1::JourneyService::NewStub(grpc::CreateChannel(address, grpc::InsecureChannelCredentials()));
   grpc::ClientContext context;
@@ -97,41 +101,72 @@ bool Create(const std::string& address, const std::string& robot, const std::str
   return stub->CreateJourney(&context, request, &created).ok();
 }
 
-// All streams at once, each to its own journey, until the last observation is durable.
-void RunStreams(benchmark::State& state, const StreamServer* server, const Requests& requests,
-                bool create) {
-  static int runs = 0;
-  if (server == nullptr) return state.SkipWithError("the server did not start");
-  for (auto _ : state) {
-    state.PauseTiming();
-    const std::string journey = absl::StrCat("j", runs++);
-    for (int i = 0; create && i < Streams(); ++i) {
-      if (!Create(server->address(), absl::StrCat("r", i), journey)) {
-        state.SkipWithError("cannot create a journey");
-      }
-    }
-    state.ResumeTiming();
-    std::atomic<bool> ok = true;
-    OnAllCores([&](int i) {
-      const std::string name = absl::StrCat("robots/r", i, "/journeys/", journey);
-      if (!Stream(server->address(), name, requests)) ok = false;
-    });
-    if (!ok) state.SkipWithError("a stream ended early");
-  }
-  state.counters["per_second"] =
-      benchmark::Counter(static_cast<double>(requests.size() * static_cast<std::size_t>(Streams())),
-                         benchmark::Counter::kIsIterationInvariantRate);
+// All streams at once, each to its own journey, until the last observation is durable. False: one
+// ended early.
+bool RunStreams(const std::string& address, const Requests& requests, const std::string& journey) {
+  std::atomic<bool> ok = true;
+  OnAllCores([&](int i) {
+    const std::string name = absl::StrCat("robots/r", i, "/journeys/", journey);
+    if (!Stream(address, name, requests)) ok = false;
+  });
+  return ok;
 }
+
+double SecondsOf(const std::function<bool()>& run, bool* ok) {
+  const auto begin = std::chrono::steady_clock::now();
+  *ok = run() && *ok;
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+// Both within one repetition: a run of each to warm up, then peer, ours, ours, peer. Whatever
+// else the machine does then, and does ever more or ever less of, slows down both alike.
+// `prepare` is not timed.
+void RunInTurns(benchmark::State& state, const std::function<bool()>& peer,
+                const std::function<bool()>& prepare, const std::function<bool()>& ours) {
+  bool ok = peer() && prepare() && ours();
+  double peer_s = 0, ours_s = 0;
+  for (auto _ : state) {
+    peer_s += SecondsOf(peer, &ok);
+    for (int i = 0; i < 2; ++i) {
+      ok = prepare() && ok;
+      ours_s += SecondsOf(ours, &ok);
+    }
+    peer_s += SecondsOf(peer, &ok);
+  }
+  if (!ok) state.SkipWithError("a stream ended early");
+  state.counters["peer_s"] = peer_s;
+  state.counters["ours_s"] = ours_s;
+}
+
+// The journeys of the next run over gRPC.
+class NewJourneys {
+ public:
+  explicit NewJourneys(const StreamServer* server) : server_(server) {}
+  bool Create() {
+    name_ = absl::StrCat("j", ++runs_);
+    bool ok = true;
+    for (int i = 0; i < Streams(); ++i) {
+      ok = CreateJourney(server_->address(), absl::StrCat("r", i), name_) && ok;
+    }
+    return ok;
+  }
+  bool Record(const Requests& requests) const {
+    return RunStreams(server_->address(), requests, name_);
+  }
+
+ private:
+  const StreamServer* const server_;
+  int runs_ = 0;
+  std::string name_;
+};
 
 void FramesOverGrpc(benchmark::State& state) {
-  const auto server = StartHomingServer();
-  RunStreams(state, server.get(), FrameRequests(), true);
-}
-
-void FramesWithoutNetwork(benchmark::State& state) {
   cv::setNumThreads(0);
+  const auto server = StartHomingServer();
+  if (server == nullptr) return state.SkipWithError("the server did not start");
+  const Requests requests = FrameRequests();
   const std::vector<cv::Mat> frames = DrawFrames(kSize, kFrames);
-  for (auto _ : state) {
+  const auto without_network = [&frames] {
     OnAllCores([&](int) {
       JourneyRecorder recorder{JourneySettings()};
       for (std::size_t i = 0; i < frames.size(); ++i) {
@@ -139,12 +174,25 @@ void FramesWithoutNetwork(benchmark::State& state) {
             recorder.Record(FrameObservation(static_cast<std::int64_t>(i), frames[i])));
       }
     });
-  }
+    return true;
+  };
+  NewJourneys journeys(server.get());
+  RunInTurns(
+      state, without_network, [&] { return journeys.Create(); },
+      [&] { return journeys.Record(requests); });
 }
 
 void FlowOverGrpc(benchmark::State& state) {
   const auto server = StartHomingServer();
-  RunStreams(state, server.get(), FlowRequests(), true);
+  const auto echo = StartEchoServer({});
+  if (server == nullptr || echo == nullptr) {
+    return state.SkipWithError("a server did not start");
+  }
+  const Requests requests = FlowRequests();
+  NewJourneys journeys(server.get());
+  RunInTurns(
+      state, [&] { return RunStreams(echo->address(), requests, "echo"); },
+      [&] { return journeys.Create(); }, [&] { return journeys.Record(requests); });
 }
 
 // The cost of one observation before it is sent, in one thread.
@@ -160,25 +208,19 @@ void FlowWithoutNetwork(benchmark::State& state) {
   }
 }
 
-void FlowEcho(benchmark::State& state) {
-  const auto server = StartEchoServer();
-  RunStreams(state, server.get(), FlowRequests(), false);
-}
-
 }  // namespace
 
-void RegisterStreamBenchmarks(bool /*quick*/) {
-  const auto add = [](const char* name, void (*body)(benchmark::State&)) {
+void RegisterStreamBenchmarks(bool quick) {
+  const auto add = [quick](const char* name, void (*body)(benchmark::State&)) {
     benchmark::RegisterBenchmark(name, body)
         ->UseRealTime()
         ->Iterations(1)
+        ->Repetitions(quick ? 5 : kRepetitions)
         ->Unit(benchmark::kMillisecond);
   };
   benchmark::RegisterBenchmark("flow_alone", FlowWithoutNetwork)->Unit(benchmark::kMicrosecond);
   add("frames_grpc", FramesOverGrpc);
-  add("frames_pool", FramesWithoutNetwork);
   add("flow_grpc", FlowOverGrpc);
-  add("flow_echo", FlowEcho);
 }
 
 }  // namespace homing::benchmarks

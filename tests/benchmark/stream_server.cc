@@ -9,6 +9,7 @@
 #include "homing/v1/journey_service.grpc.pb.h"
 #include "server/homing_server.h"
 #include "server/rpc/bidi_stream.h"
+#include "server/tls_credentials.h"
 #include "tests/support/temporary_folder.h"
 
 namespace homing::benchmarks {
@@ -81,16 +82,24 @@ class Echo final : public StreamServer {
   Echo()
       : core_(*storage::OpenJourneyStore({.url = "sqlite::memory:"}),
               *server::AccessControl::Open({}), EchoOptions()),
-        service_(&core_) {
-    grpc::ServerBuilder builder;
-    builder.AddListeningPort("127.0.0.1:0", grpc::InsecureServerCredentials(), &port_);
-    builder.RegisterService(&service_);
-    server_ = builder.BuildAndStart();
-  }
+        service_(&core_) {}
   ~Echo() override {
+    if (server_ == nullptr) return;
     server_->Shutdown();
     server_->Wait();
     core_.streams.AwaitNone();
+  }
+  bool Start(const EchoTls& tls) {
+    server::ServerOptions options;
+    options.tls_cert = tls.cert;
+    options.tls_key = tls.key;
+    const auto credentials = server::MakeServerCredentials(options, core_.access);
+    if (!credentials.ok()) return false;
+    grpc::ServerBuilder builder;
+    builder.AddListeningPort("127.0.0.1:0", *credentials, &port_);
+    builder.RegisterService(&service_);
+    server_ = builder.BuildAndStart();
+    return server_ != nullptr;
   }
   std::string address() const override { return absl::StrCat("127.0.0.1:", port_); }
 
@@ -108,6 +117,9 @@ std::unique_ptr<StreamServer> StartHomingServer() {
   return server->Start() ? std::move(server) : nullptr;
 }
 
-std::unique_ptr<StreamServer> StartEchoServer() { return std::make_unique<Echo>(); }
+std::unique_ptr<StreamServer> StartEchoServer(const EchoTls& tls) {
+  auto server = std::make_unique<Echo>();
+  return server->Start(tls) ? std::move(server) : nullptr;
+}
 
 }  // namespace homing::benchmarks

@@ -17,9 +17,15 @@ class StreamServer {
 // A homing-server with its own database. Null: it did not start.
 std::unique_ptr<StreamServer> StartHomingServer();
 
-// Answers each RecordJourney observation by its number: the same reactor, threads, strands and
-// pool, and nothing computed or stored.
-std::unique_ptr<StreamServer> StartEchoServer();
+// The certificate and key of TLS; empty: plain text.
+struct EchoTls {
+  std::string cert;
+  std::string key;
+};
+
+// Answers each RecordJourney observation by its number: the same reactor, threads, strands, pool
+// and transport, and nothing computed or stored. Null: it did not start.
+std::unique_ptr<StreamServer> StartEchoServer(const EchoTls& tls);
 
 }  // namespace homing::benchmarks
 

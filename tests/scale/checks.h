@@ -12,8 +12,9 @@ struct Programs {
   std::string server;
   // homing-bench.
   std::string bench;
-  // database.sh.
+  // database.sh, and patroni.sh.
   std::string database;
+  std::string patroni;
 };
 
 // Robots record and localise through three servers on one database, while servers are killed and
@@ -21,6 +22,10 @@ struct Programs {
 // with those of an undisturbed run on SQLite. The longest gaps may be `tolerance` times their
 // bounds.
 void CheckRounds(const Programs& programs, int rounds, double tolerance, faults::Figures* figures);
+
+// The same with PostgreSQL under Patroni, whose leader is killed `rounds` times; nothing else
+// happens.
+void CheckPatroni(const Programs& programs, int rounds, double tolerance, faults::Figures* figures);
 
 // Durable observations a second with SQLite, with one, two and three servers on PostgreSQL, and
 // with no server at all. `seconds` each.

@@ -19,9 +19,10 @@ control() {
     { cat "$folder/pg_ctl.log" "$folder/$port.log" >&2; exit 1; }
 }
 
-# The first run as postgres creates files here.
+# The first run as postgres creates files here. A replica that is promoted just when it has lost its primary would first
+# sleep for wal_retrieve_retry_interval, by default 5 s.
 start_one() {
-  control "$1" start -o "-c listen_addresses= -k $folder -p $1 -c max_connections=100 -c hot_standby_feedback=on"
+  control "$1" start -o "-c listen_addresses= -k $folder -p $1 -c max_connections=100 -c hot_standby_feedback=on -c wal_retrieve_retry_interval=200ms"
 }
 
 query() {

@@ -2,7 +2,9 @@
 #include <signal.h>
 
 #include <atomic>
+#include <functional>
 #include <iostream>
+#include <string>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -78,6 +80,17 @@ class Localizers {
   std::vector<std::thread> threads_;
 };
 
+bool FailOver(const std::string& event, SharedDatabase* database, GapWatch* gaps) {
+  gaps->SetEvent(event);
+  const bool is_promoted = database->FailOver();
+  std::this_thread::sleep_for(kCalm);
+  gaps->SetEvent("replica_added");
+  const bool has_replica = is_promoted && database->AddReplica();
+  std::this_thread::sleep_for(kCalm);
+  gaps->SetEvent("");
+  return has_replica;
+}
+
 // One of each event. False: a server or the database did not come back.
 bool RunRound(int round, SharedDatabase* database, GapWatch* gaps) {
   faults::ServerUnderTest& killed = database->server(static_cast<std::size_t>(round % kServers));
@@ -95,62 +108,58 @@ bool RunRound(int round, SharedDatabase* database, GapWatch* gaps) {
   paused.Signal(SIGCONT);
   std::this_thread::sleep_for(kCalm);
 
-  gaps->SetEvent("database_promoted");
-  const bool is_promoted = database->FailOver();
-  std::this_thread::sleep_for(kCalm);
-  gaps->SetEvent("replica_added");
-  const bool has_replica = is_promoted && database->AddReplica();
-  std::this_thread::sleep_for(kCalm);
-  gaps->SetEvent("");
-  return has_replica;
+  return FailOver("database_promoted", database, gaps);
 }
 
-void CompareWithUndisturbed(const Programs& programs, const std::string& address,
-                            const faults::Ledger& ledger, faults::Figures* figures) {
+bool KillLeader(int /*round*/, SharedDatabase* database, GapWatch* gaps) {
+  return FailOver("leader_killed", database, gaps);
+}
+
+// One kind of check: its events, and what it may cost.
+struct Check {
+  // Begins each line.
+  std::string name;
+  std::function<bool(int round, SharedDatabase* database, GapWatch* gaps)> run_round;
+  // Seconds at most, by event.
+  std::vector<std::pair<const char*, double>> gaps;
+};
+
+void CompareWithUndisturbed(const std::string& name, const std::string& server,
+                            const std::string& address, const faults::Ledger& ledger,
+                            faults::Figures* figures) {
   const TemporaryFolder folder;
-  faults::ServerUnderTest calm(programs.server, folder.File(""));
-  if (!calm.Start()) return figures->Failed("scale_maps_unlike", "no server");
+  faults::ServerUnderTest calm(server, folder.File(""));
+  if (!calm.Start()) return figures->Failed(name + "_maps_unlike", "no server");
   const auto maps = faults::UndisturbedMaps(calm.address(), Robots(""), kRobots);
   calm.Stop();
   const auto entries = ledger.entries();
-  figures->AtLeast("scale_maps_compared", static_cast<double>(entries.size()), kRobots);
-  figures->AtMost("scale_maps_unlike", faults::CountUnlike(address, entries, maps), 0);
+  figures->AtLeast(name + "_maps_compared", static_cast<double>(entries.size()), kRobots);
+  figures->AtMost(name + "_maps_unlike", faults::CountUnlike(address, entries, maps), 0);
 }
 
-void CompareWithLedger(const std::string& url, const faults::Ledger& ledger,
-                       faults::Figures* figures) {
+void CompareWithLedger(const std::string& name, const std::string& url,
+                       const faults::Ledger& ledger, faults::Figures* figures) {
   const auto entries = ledger.entries();
   const auto check = faults::CheckDatabase(url, entries);
-  if (!check.ok()) return figures->Failed("scale_acknowledged_lost", check.status().ToString());
-  figures->AtLeast("scale_acknowledged", static_cast<double>(faults::TotalOf(entries)), 1);
-  figures->AtMost("scale_acknowledged_lost", static_cast<double>(check->lost), 0);
+  if (!check.ok()) return figures->Failed(name + "_acknowledged_lost", check.status().ToString());
+  figures->AtLeast(name + "_acknowledged", static_cast<double>(faults::TotalOf(entries)), 1);
+  figures->AtMost(name + "_acknowledged_lost", static_cast<double>(check->lost), 0);
   // Also what a server wrote that had lost the journey to another.
-  figures->AtMost("scale_stored_twice", static_cast<double>(check->twice), 0);
+  figures->AtMost(name + "_stored_twice", static_cast<double>(check->twice), 0);
 }
 
-void ReportGaps(GapWatch* gaps, double tolerance, faults::Figures* figures) {
-  // Seconds at most.
-  const std::pair<const char*, double> bounds[] = {
-      {"server_killed", 5}, {"server_paused", 10}, {"database_promoted", 5}, {"replica_added", 10}};
-  for (const auto& [event, most] : bounds) {
-    figures->AtMost(absl::StrCat("scale_gap_", event, "_s"), gaps->LongestSeconds(event),
-                    tolerance * most);
-  }
-}
-
-}  // namespace
-
-void CheckRounds(const Programs& programs, int rounds, double tolerance, faults::Figures* figures) {
-  SharedDatabase database(programs);
+void CheckFleet(const Check& check, const std::string& server, const std::string& script,
+                int rounds, double tolerance, faults::Figures* figures) {
+  SharedDatabase database(server, script);
   if (!database.Start() || !database.StartServers(kServers)) {
-    return figures->Failed("scale_rounds", "the servers do not start");
+    return figures->Failed(check.name + "_rounds", "the servers do not start");
   }
   RobotOptions options = Robots(database.addresses());
   faults::Ledger home;
   for (options.robot = 0; options.robot < kHomeJourneys; ++options.robot) {
     options.pace = milliseconds(0);
     const auto status = faults::RecordOne(options, faults::JourneyOf(options.robot, 0), &home);
-    if (!status.ok()) return figures->Failed("scale_rounds", status.ToString());
+    if (!status.ok()) return figures->Failed(check.name + "_rounds", status.ToString());
   }
   options = Robots(database.addresses());
   GapWatch gaps;
@@ -160,16 +169,37 @@ void CheckRounds(const Programs& programs, int rounds, double tolerance, faults:
       options, kRobots, &ledger, /*first_journey=*/1, [&gaps](int robot) { gaps.Answered(robot); },
       [&gaps](int robot, const std::string& step) { gaps.Noted(robot, step); });
   int done = 0;
-  while (done < rounds && fleet.error().empty() && RunRound(done, &database, &gaps)) ++done;
+  while (done < rounds && fleet.error().empty() && check.run_round(done, &database, &gaps)) ++done;
   fleet.Finish();
   localizers.Finish();
-  if (!fleet.error().empty()) figures->Failed("scale_recording", fleet.error());
-  figures->AtLeast("scale_rounds", done, rounds);
-  figures->AtMost("scale_clients_failed", localizers.failed(), 0);
-  figures->AtLeast("scale_localised", static_cast<double>(localizers.answers()), rounds);
-  CompareWithLedger(database.url(), ledger, figures);
-  CompareWithUndisturbed(programs, database.addresses(), ledger, figures);
-  ReportGaps(&gaps, tolerance, figures);
+  if (!fleet.error().empty()) figures->Failed(check.name + "_recording", fleet.error());
+  figures->AtLeast(check.name + "_rounds", done, rounds);
+  figures->AtMost(check.name + "_clients_failed", localizers.failed(), 0);
+  figures->AtLeast(check.name + "_localised", static_cast<double>(localizers.answers()), rounds);
+  CompareWithLedger(check.name, database.url(), ledger, figures);
+  CompareWithUndisturbed(check.name, server, database.addresses(), ledger, figures);
+  for (const auto& [event, most] : check.gaps) {
+    figures->AtMost(absl::StrCat(check.name, "_gap_", event, "_s"), gaps.LongestSeconds(event),
+                    tolerance * most);
+  }
+}
+
+}  // namespace
+
+void CheckRounds(const Programs& programs, int rounds, double tolerance, faults::Figures* figures) {
+  const Check check{"scale",
+                    RunRound,
+                    {{"server_killed", 5},
+                     {"server_paused", 10},
+                     {"database_promoted", 5},
+                     {"replica_added", 10}}};
+  CheckFleet(check, programs.server, programs.database, rounds, tolerance, figures);
+}
+
+void CheckPatroni(const Programs& programs, int rounds, double tolerance,
+                  faults::Figures* figures) {
+  const Check check{"patroni", KillLeader, {{"leader_killed", 30}, {"replica_added", 10}}};
+  CheckFleet(check, programs.server, programs.patroni, rounds, tolerance, figures);
 }
 
 }  // namespace homing::scale

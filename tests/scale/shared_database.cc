@@ -15,7 +15,7 @@ SharedDatabase::~SharedDatabase() {
 }
 
 std::string SharedDatabase::Run(const std::string& command) const {
-  const std::string line = absl::StrCat("sh ", programs_.database, " ", command, " ",
+  const std::string line = absl::StrCat("sh ", script_, " ", command, " ",
                                         folder_.File("").substr(0, folder_.File("").size() - 1));
   std::FILE* const pipe = ::popen(line.c_str(), "r");
   if (pipe == nullptr) return "";
@@ -39,7 +39,7 @@ bool SharedDatabase::AddReplica() const { return !Run("replica").empty(); }
 bool SharedDatabase::StartServers(int count) {
   for (int i = 0; i < count; ++i) {
     servers_.push_back(std::make_unique<faults::ServerUnderTest>(
-        programs_.server, folder_.File(absl::StrCat("server", i)), url_));
+        server_program_, folder_.File(absl::StrCat("server", i)), url_));
     if (!servers_.back()->Start()) return false;
   }
   return true;

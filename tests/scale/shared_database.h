@@ -4,22 +4,24 @@
 
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "tests/faults/server_under_test.h"
-#include "tests/scale/checks.h"
 #include "tests/support/temporary_folder.h"
 
 namespace homing::scale {
 
 class SharedDatabase {
  public:
-  explicit SharedDatabase(const Programs& programs) : programs_(programs) {}
+  // `script`: database.sh or patroni.sh.
+  SharedDatabase(std::string server, std::string script)
+      : server_program_(std::move(server)), script_(std::move(script)) {}
   ~SharedDatabase();
 
   // False: it cannot be started.
   bool Start();
-  // Stops the primary at once and promotes the replica. False: it failed.
+  // Kills the primary and waits until its replica leads. False: it failed.
   bool FailOver() const;
   // Makes a new replica of the promoted one. False: it failed.
   bool AddReplica() const;
@@ -35,7 +37,8 @@ class SharedDatabase {
   // The output; empty if the script failed.
   std::string Run(const std::string& command) const;
 
-  const Programs programs_;
+  const std::string server_program_;
+  const std::string script_;
   TemporaryFolder folder_;
   std::string url_;
   std::vector<std::unique_ptr<faults::ServerUnderTest>> servers_;

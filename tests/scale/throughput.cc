@@ -111,7 +111,7 @@ double StoreAlone(const std::string& url, int seconds) {
 }  // namespace
 
 void CheckThroughput(const Programs& programs, int seconds, faults::Figures* figures) {
-  SharedDatabase database(programs);
+  SharedDatabase database(programs.server, programs.database);
   if (!database.Start()) return figures->Failed("scale_throughput", "no database");
   // In turns, because the machine's load changes.
   constexpr int kTurns = 3;

@@ -40,6 +40,8 @@ class LoadRunTest : public ServerTest {
     EXPECT_EQ(result->counts.sent, 4 * 25);
     EXPECT_EQ(result->counts.answered, 4 * 25);
     EXPECT_EQ(result->counts.latency.count(), 4 * 25U);
+    EXPECT_EQ(result->counts.first.count(), 4U);
+    EXPECT_EQ(result->counts.settled.count(), 0U);
   }
 
   void MakeChiefAdmin() {

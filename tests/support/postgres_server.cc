@@ -79,6 +79,20 @@ std::string PostgresServer::Start() {
                               folder_.File(""), "'"));
 }
 
+std::unique_ptr<PostgresServer> PostgresServer::Copy() const {
+  std::unique_ptr<PostgresServer> copy(new PostgresServer);
+  RunShell(absl::StrCat("cp -a ", folder_.File("data"), " ", copy->folder_.File("")));
+  if (::geteuid() == 0) RunShell("chown postgres " + copy->folder_.File(""));
+  copy->is_running_ = true;
+  return copy;
+}
+
+void PostgresServer::StartPromoted() {
+  RunShell(AsPostgres("touch " + folder_.File("data/standby.signal")));
+  Start();
+  Control("promote");
+}
+
 std::string PostgresServer::NewDatabase() {
   const std::string name = absl::StrCat("test", ++databases_);
   Query("postgres", "CREATE DATABASE " + name);

@@ -29,6 +29,11 @@ class PostgresServer {
   void Crash();
   // Starts again; what pg_ctl printed.
   std::string Start();
+  // REQUIRES: this one has crashed. A second one with the same data, not started.
+  std::unique_ptr<PostgresServer> Copy() const;
+  // Starts as a replica does that is promoted: with a new timeline. REQUIRES: crashed.
+  void StartPromoted();
+  std::string socket_folder() const { return folder_.File(""); }
 
  private:
   PostgresServer() = default;
