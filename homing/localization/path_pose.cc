@@ -2,14 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <span>
-#include <vector>
 
 #include "homing/flow/vertical_turn.h"
-#include "homing/landmark/flow_profile.h"
 #include "homing/landmark/odometer_reading.h"
-#include "homing/profile/profile_distance.h"
 
 namespace homing {
 namespace {
@@ -24,30 +19,8 @@ constexpr double kFirstHeading = 0.15;
 constexpr double kHeadingDrift = 0.06;
 constexpr double kOffsetDrift = 0.05;
 constexpr double kTurnError = 0.1;
-// The belief never gets surer than this.
-constexpr double kLeastOffset = 0.03;
-constexpr double kLeastHeading = 0.015;
-// Poses tried: so many either way, a deviation apart within these bounds.
-constexpr int kTries = 2;
-constexpr double kLeastOffsetStep = 0.06, kMostOffsetStep = 0.15;
-constexpr double kLeastHeadingStep = 0.04, kMostHeadingStep = 0.12;
-constexpr double kMostOffset = 0.6;
-constexpr double kMostHeading = 0.8;
 // Largest turn between two steps, rad: a reading above it is an error.
 constexpr double kMostTurn = 0.5;
-// A pose with a prior below e^-6 of the best is not compared.
-constexpr double kMostSurprise = 6;
-// Steps tried either way.
-constexpr std::int64_t kSteps = 10;
-// Log likelihood of a unit of profile distance. The pose is corrected each time that the robot has
-// driven kCorrectionSpacing: views nearer to each other repeat the same evidence.
-constexpr double kPerDistance = 1.0 / 60;
-constexpr double kCorrectionSpacing = 0.10;
-// A motion below this, or below this share of the turn, shows no depth. The first offset is
-// reported after kDrivenAtStart.
-constexpr double kLeastDriven = 0.003;
-constexpr double kLeastOfTurn = 0.15;
-constexpr double kDrivenAtStart = 0.06;
 // Error of a turn that is read against the map: rad, and rad for a unit driven.
 constexpr double kMapTurn = 0.002;
 constexpr double kMapTurnError = 0.1;
@@ -59,24 +32,7 @@ constexpr double kUnseenTurn = 0.03;
 // Opposite sideways flows that differ by less say nothing of the motion, pixels.
 constexpr double kLeastAdvancePx = 1;
 
-std::size_t At(Side side) { return static_cast<std::size_t>(side); }
-
-// Of the cells.
-double ShareOf(const CellMask& covered) {
-  return static_cast<double>(std::ranges::count(covered, 255)) / FlowProfile::kCells;
-}
-
 }  // namespace
-
-struct PathPoseFilter::Tried {
-  static constexpr int kCount = 2 * kTries + 1;
-  std::array<double, kCount> offsets{};
-  std::array<double, kCount> headings{};
-  // By heading and offset: minus the log prior, and the least distance over the steps; infinite
-  // where the pose is not compared.
-  std::array<std::array<double, kCount>, kCount> surprises{};
-  std::array<std::array<double, kCount>, kCount> distances{};
-};
 
 PathPoseFilter::PathPoseFilter(Travel travel, const std::array<Camera, 2>& cameras)
     : travel_(travel),
@@ -212,109 +168,6 @@ ObservedFlow PathPoseFilter::Straighten(const ObservedFlow& flow) const {
     }
   }
   return result;
-}
-
-void PathPoseFilter::Correct(const JourneyMap& map, std::int64_t step, const ObservedFlow& flow) {
-  if (std::abs(driven_) < std::max(kLeastDriven, kLeastOfTurn * std::abs(turned_))) return;
-  uncorrected_ += std::abs(driven_);
-  if (uncorrected_ < kCorrectionSpacing) return;
-  uncorrected_ = 0;
-  Tried tried = PosesToTry();
-  const std::int64_t first = std::max<std::int64_t>(0, step - kSteps);
-  const std::int64_t end = std::min(map.step_count(), step + kSteps + 1);
-  for (std::size_t h = 0; h < tried.headings.size(); ++h) {
-    CompareAtHeading(map, first, end, flow, h, tried);
-  }
-  Fit(tried);
-}
-
-PathPoseFilter::Tried PathPoseFilter::PosesToTry() const {
-  Tried tried;
-  const double offset_step =
-      std::clamp(std::sqrt(offset_variance_), kLeastOffsetStep, kMostOffsetStep);
-  const double heading_step =
-      std::clamp(std::sqrt(heading_variance_), kLeastHeadingStep, kMostHeadingStep);
-  for (int i = 0; i < Tried::kCount; ++i) {
-    const auto at = static_cast<std::size_t>(i);
-    tried.offsets[at] =
-        std::clamp(pose_.offset + (i - kTries) * offset_step, -kMostOffset, kMostOffset);
-    tried.headings[at] = pose_.heading + (i - kTries) * heading_step;
-  }
-  const double determinant =
-      std::max(1e-12, offset_variance_ * heading_variance_ - covariance_ * covariance_);
-  for (std::size_t h = 0; h < tried.headings.size(); ++h) {
-    for (std::size_t o = 0; o < tried.offsets.size(); ++o) {
-      const double of = tried.offsets[o] - pose_.offset, he = tried.headings[h] - pose_.heading;
-      tried.surprises[h][o] =
-          0.5 *
-          (of * of * heading_variance_ - 2 * of * he * covariance_ + he * he * offset_variance_) /
-          determinant;
-    }
-  }
-  return tried;
-}
-
-void PathPoseFilter::CompareAtHeading(const JourneyMap& map, std::int64_t first, std::int64_t end,
-                                      const ObservedFlow& flow, std::size_t heading,
-                                      Tried& tried) const {
-  std::vector<std::size_t> offsets;
-  tried.distances[heading].fill(std::numeric_limits<double>::infinity());
-  for (std::size_t o = 0; o < tried.offsets.size(); ++o) {
-    if (tried.surprises[heading][o] <= kMostSurprise) offsets.push_back(o);
-  }
-  if (offsets.empty()) return;
-  const auto steps = static_cast<std::size_t>(end - first);
-  std::vector<std::uint16_t> distances(steps);
-  std::array<std::vector<double>, Tried::kCount> sums;
-  for (auto& sum : sums) sum.assign(steps, 0);
-  for (const Side camera : {Side::kLeft, Side::kRight}) {
-    const auto stored =
-        map.profiles(RouteSide(camera, travel_)).subspan(static_cast<std::size_t>(first), steps);
-    const ProfileMaker seen(
-        Turned(*flow.fields[At(camera)], At(camera), tried.headings[heading] - turned_),
-        OdometerReading{});
-    for (const std::size_t o : offsets) {
-      const double nearer = camera == Side::kLeft ? tried.offsets[o] : -tried.offsets[o];
-      const FlowProfile profile = seen.Make(1 - nearer);
-      const CellMask covered = CoveredCells(1 - nearer);
-      ProfileDistances(profile, stored, covered, distances);
-      const double share = ShareOf(covered);
-      for (std::size_t i = 0; i < steps; ++i) sums[o][i] += distances[i] / share;
-    }
-  }
-  for (const std::size_t o : offsets) {
-    tried.distances[heading][o] = *std::ranges::min_element(sums[o]);
-  }
-}
-
-void PathPoseFilter::Fit(const Tried& tried) {
-  double least = tried.distances[0][0];
-  for (const auto& row : tried.distances) least = std::min(least, *std::ranges::min_element(row));
-  double sum = 0, mean_o = 0, mean_h = 0, oo = 0, hh = 0, oh = 0;
-  for (std::size_t h = 0; h < tried.headings.size(); ++h) {
-    for (std::size_t o = 0; o < tried.offsets.size(); ++o) {
-      const double of = tried.offsets[o] - pose_.offset, he = tried.headings[h] - pose_.heading;
-      const double weight =
-          std::exp(-tried.surprises[h][o] - kPerDistance * (tried.distances[h][o] - least));
-      sum += weight;
-      mean_o += weight * of;
-      mean_h += weight * he;
-      oo += weight * of * of;
-      hh += weight * he * he;
-      oh += weight * of * he;
-    }
-  }
-  if (!(sum > 1e-300) || !std::isfinite(sum)) return;
-  mean_o /= sum;
-  mean_h /= sum;
-  pose_.offset += mean_o;
-  pose_.heading = std::clamp(pose_.heading + mean_h, -kMostHeading, kMostHeading);
-  offset_variance_ = std::max(oo / sum - mean_o * mean_o, kLeastOffset * kLeastOffset);
-  heading_variance_ = std::max(hh / sum - mean_h * mean_h, kLeastHeading * kLeastHeading);
-  const double most = 0.9 * std::sqrt(offset_variance_ * heading_variance_);
-  covariance_ = std::clamp(oh / sum - mean_o * mean_h, -most, most);
-  driven_since_lost_ += std::abs(driven_);
-  is_started_ = is_started_ || driven_since_lost_ > kDrivenAtStart;
 }
 
 }  // namespace homing

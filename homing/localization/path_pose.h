@@ -64,6 +64,11 @@ class PathPoseFilter {
   PathPose deviation() const;
 
  private:
+  static std::size_t At(Side side) { return static_cast<std::size_t>(side); }
+  // Bounds of the belief: of the offset, and of the heading, rad.
+  static constexpr double kMostOffset = 0.6;
+  static constexpr double kMostHeading = 0.8;
+
   // Steps advanced, negative towards home, and the path's own turn at each, rad to the left of the
   // outbound robot.
   struct Advance {

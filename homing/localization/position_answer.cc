@@ -21,6 +21,17 @@ Direction DirectionOf(const std::array<double, 2>& mass) {
 
 }  // namespace
 
+PositionFilter::Best PositionFilter::FindBest(std::int64_t half) const {
+  Best best;
+  for (std::size_t i = 0; i < beliefs_.size(); ++i) {
+    const StepWindow window = BestWindow(masses_[i], half, beliefs_[i].step_count());
+    if (window.mass > best.window.mass) {
+      best = {i, window};
+    }
+  }
+  return best;
+}
+
 Position PositionFilter::Answer() const {
   Position position;
   position.unknown_probability = 1 - membership_.OnRoute();

@@ -32,6 +32,8 @@ constexpr double kKnownOnRoute = 0.95;
 constexpr double kKnownPlace = 0.99;
 // The paper's P_T alone: log odds by observation, bounded by RouteMembership.
 constexpr double kLandmarkWeight = 1;
+// What an observation after a gap weighs: its few vectors are seldom those of the place.
+constexpr double kGapWeight = 0.3;
 // The robot may have been carried away while the link was down.
 constexpr double kMostPrior = 0.95;
 constexpr std::int16_t kNoRatio = SpeedEvidence::kNoRatio;
@@ -45,6 +47,7 @@ Position PositionFilter::Update(std::span<const JourneyRef> journeys, Motion mot
                                 const SeenSides& seen, const SeenProfiles& profiles) {
   Grow(journeys);
   if (motion != Motion::kStanding && step_count_ > 0) {
+    after_gap_ = motion == Motion::kMoving && !options_.paper_only && gap_.Update(profiles);
     Predict(motion);
     if (motion == Motion::kMoving) {
       Correct(journeys, seen, profiles);
@@ -119,7 +122,8 @@ void PositionFilter::Predict(Motion motion) {
     RouteBelief& belief = beliefs_[i];
     if (motion == Motion::kMoving && started_) {
       const double before = belief.Mass();
-      lost += before * belief.Move(speeds_[i].change(), restart);
+      lost += before *
+              (after_gap_ ? belief.MoveUnseen(restart) : belief.Move(speeds_[i].change(), restart));
     } else if (motion == Motion::kTurning) {
       belief.Turn(restart);
     }
@@ -141,15 +145,16 @@ std::vector<StepMass> PositionFilter::Masses() const {
 
 void PositionFilter::Weigh(std::span<const JourneyRef> journeys, const SeenProfiles& profiles,
                            double weight, const Factors& factors) {
+  const bool is_unread = options_.paper_only || after_gap_;
   double after = 0;
   for (std::size_t i = 0; i < beliefs_.size(); ++i) {
     const std::vector<std::int16_t> ratios =
-        options_.paper_only
+        is_unread
             ? std::vector<std::int16_t>(masses_[i].mass.size(), kNoRatio)
             : SpeedRatios(*journeys[i].map, profile_likelihood_.routes()[i], masses_[i], profiles);
     const std::array<double, 2> directions =
-        options_.paper_only ? std::array<double, 2>{1, 1}
-                            : DirectionFactors(profile_likelihood_.routes()[i], profiles, weight);
+        is_unread ? std::array<double, 2>{1, 1}
+                  : DirectionFactors(profile_likelihood_.routes()[i], profiles, weight);
     masses_[i] = beliefs_[i].Weigh(factors(i), ratios, speeds_[i], directions);
     after += masses_[i].Sum() + beliefs_[i].MassBeyond();
   }
@@ -213,7 +218,7 @@ void PositionFilter::CorrectByProfiles(std::span<const JourneyRef> journeys,
   const double moved = distance_.Update(profile_likelihood_.routes(), masses_, profiles)
                            .value_or(std::copysign(std::min(1.0, speed_.absolute), last_moved_));
   last_moved_ = moved;
-  const double weight = WeightOfObservation(moved);
+  const double weight = WeightOfObservation(moved) * (after_gap_ ? kGapWeight : 1);
   profile_likelihood_.Compute(journeys, profiles, masses_, weight);
   const double fit = MeanFactor([this](std::size_t i) { return profile_likelihood_.of(i); });
   membership_.Fit(fit);
@@ -284,17 +289,6 @@ void PositionFilter::Normalise(double mass) {
   } else {
     masses_ = Masses();
   }
-}
-
-PositionFilter::Best PositionFilter::FindBest(std::int64_t half) const {
-  Best best;
-  for (std::size_t i = 0; i < beliefs_.size(); ++i) {
-    const StepWindow window = BestWindow(masses_[i], half, beliefs_[i].step_count());
-    if (window.mass > best.window.mass) {
-      best = {i, window};
-    }
-  }
-  return best;
 }
 
 }  // namespace homing

@@ -11,6 +11,7 @@
 
 #include "homing/flow/motion.h"
 #include "homing/localization/distance_moved.h"
+#include "homing/localization/flow_gap.h"
 #include "homing/localization/route_belief.h"
 #include "homing/localization/route_membership.h"
 #include "homing/localization/step_likelihood.h"
@@ -140,6 +141,9 @@ class PositionFilter {
   RouteMembership membership_;
   DistanceMoved distance_;
   SharedChange shared_change_;
+  FlowGap gap_;
+  // The flow of this observation does not show how far the robot moved.
+  bool after_gap_ = false;
   // Steps from the first observation on, and those of the last one, as DistanceMoved tells them.
   double moved_ = 0;
   double last_moved_ = 1;

@@ -12,6 +12,8 @@ namespace {
 
 // Of the changes of speed, those to any speed; the others are to a neighbouring one.
 constexpr double kJumpFraction = 0.3;
+// Moves that stand for a way that the flow does not show.
+constexpr int kUnseenMoves = 4;
 // Probability an observation that the robot turns back.
 constexpr float kTurnBack = 0.0003F;
 // Probability an observation of being one step further, or one less far, than the speed says.
@@ -172,9 +174,19 @@ void RouteBelief::Carry(const Motion& motion, double restart) {
 }
 
 double RouteBelief::Move(double change, double restart) {
-  const double beside = 0.5 * change * (1 - kJumpFraction);
-  const double all = change * kJumpFraction / kSpeedCount;
-  Motion motion{.mix = {.stay = static_cast<float>(1 - change - kTurnBack),
+  return MoveMixing(change * (1 - kJumpFraction), change * kJumpFraction, restart);
+}
+
+double RouteBelief::MoveUnseen(double restart) {
+  double left = 1;
+  for (int i = 0; i < kUnseenMoves; ++i) left *= 1 - MoveMixing(0, 1, i == 0 ? restart : 0);
+  return 1 - left;
+}
+
+double RouteBelief::MoveMixing(double to_neighbours, double to_any, double restart) {
+  const double beside = 0.5 * to_neighbours;
+  const double all = to_any / kSpeedCount;
+  Motion motion{.mix = {.stay = static_cast<float>(1 - to_neighbours - to_any - kTurnBack),
                         .from_beside = static_cast<float>(beside),
                         .from_back = kTurnBack,
                         .from_all = static_cast<float>(all)},
@@ -262,34 +274,5 @@ double RouteBelief::MassBeyond() const {
 }
 
 double RouteBelief::Mass() const { return Masses().Sum() + MassBeyond(); }
-
-RouteBelief::Speed RouteBelief::MeanSpeed() const {
-  Speed mean;
-  double mass = 0;
-  for (std::size_t lane = 0; lane < kLanes; ++lane) {
-    const double of_lane = std::accumulate(lanes_[lane].begin(), lanes_[lane].end(), 0.0);
-    const double speed = kSpeeds[lane % kSpeedCount];
-    mass += of_lane;
-    mean.absolute += of_lane * speed;
-    mean.outward += of_lane * (lane < kSpeedCount ? -speed : speed);
-  }
-  if (mass > 0) {
-    mean.absolute /= mass;
-    mean.outward /= mass;
-  }
-  return mean;
-}
-
-std::array<double, 2> RouteBelief::DirectionMass(std::int64_t first, std::int64_t last) const {
-  std::array<double, 2> mass{};
-  const std::int64_t begin = std::max<std::int64_t>(0, first - first_);
-  const std::int64_t end = std::min(focus_size(), last + 1 - first_);
-  for (std::size_t lane = 0; lane < kLanes; ++lane) {
-    for (std::int64_t s = begin; s < end; ++s) {
-      mass[lane / kSpeedCount] += scale_ * double{lanes_[lane][static_cast<std::size_t>(s)]};
-    }
-  }
-  return mass;
-}
 
 }  // namespace homing

@@ -43,6 +43,9 @@ class RouteBelief {
   // probability that the speed changes. Mass that passes an end of the journey leaves it: returns
   // that fraction.
   double Move(double change, double restart = 0);
+  // The same for the way between two observations that the flow does not show: several steps, each
+  // at any speed.
+  double MoveUnseen(double restart);
   // Moves the masses by a turn on the spot: hardly any motion.
   void Turn(double restart = 0);
   // Multiplies each step of the active window by its factor, each direction by its factor, and each
@@ -80,6 +83,9 @@ class RouteBelief {
 
   // The steps from which and to which a motion carries the lanes.
   struct Carried;
+
+  // The probabilities that the speed changes to a neighbouring one, and to any.
+  double MoveMixing(double to_neighbours, double to_any, double restart);
 
   void Carry(const Motion& motion, double restart);
   // Copies a lane, mixed with its neighbours, with what lies on either side of the steps of

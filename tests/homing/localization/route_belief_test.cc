@@ -32,6 +32,22 @@ RouteBelief PeakAt(std::int64_t steps, std::int64_t at) {
   return belief;
 }
 
+TEST(RouteBeliefTest, AWayThatTheFlowDoesNotShowMayBeLong) {
+  RouteBelief belief = PeakAt(200, 100);
+  EXPECT_NEAR(belief.MoveUnseen(0), 0, 1e-6);
+  const StepMass mass = belief.Masses();
+  const auto between = [&mass](std::int64_t first, std::int64_t last) {
+    double sum = 0;
+    for (std::int64_t step = first; step <= last; ++step) {
+      sum += double{mass.mass[static_cast<std::size_t>(step - mass.first)]};
+    }
+    return sum;
+  };
+  EXPECT_GT(between(110, 140), 0.15);
+  EXPECT_GT(between(60, 90), 0.15);
+  EXPECT_NEAR(between(60, 140), 1, 1e-3);
+}
+
 TEST(RouteBeliefTest, DirectionsAreWeighed) {
   RouteBelief belief = PeakAt(200, 100);
   Weigh(belief, std::vector<float>(200, 1.0F), {0.5, 1.5});

@@ -136,6 +136,7 @@ TEST_F(FleetIndexTest, KnowsOfAnImportedJourney) {
   storage::JourneyRecord record;
   record.name = "robots/r9/journeys/copy";
   record.settings = map->settings();
+  record.next_sequence = map->step_count() + 1;
   ASSERT_THAT(catalog_->Import(record, *map), IsOk());
   ExpectSameAnswers();
 }
