@@ -19,8 +19,8 @@ constexpr double kLeastHeading = 0.015;
 constexpr int kTries = 2;
 constexpr double kLeastOffsetStep = 0.06, kMostOffsetStep = 0.15;
 constexpr double kLeastHeadingStep = 0.04, kMostHeadingStep = 0.12;
-// A pose with a prior below e^-6 of the best is not compared.
-constexpr double kMostSurprise = 6;
+// A pose with a prior below e^-12 of the best is not compared.
+constexpr double kMostSurprise = 12;
 // Steps tried either way.
 constexpr std::int64_t kSteps = 10;
 // Log likelihood of a unit of profile distance. The pose is corrected each time that the robot has
