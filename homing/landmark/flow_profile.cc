@@ -52,14 +52,14 @@ class CellAdder {
     // Both are at least -0.5, so that the cast rounds down.
     const float column = x * kColumns + 0.5F;
     const float row = y * kRows + 0.5F;
-    const auto left = static_cast<int>(column);
-    const auto top = static_cast<int>(row);
+    const auto left = static_cast<std::uint32_t>(column);
+    const auto top = static_cast<std::uint32_t>(row);
     const float right = column - static_cast<float>(left);
     const float bottom = row - static_cast<float>(top);
     const Four across = {1 - right, (1 - right) * value, right, right * value};
-    float* const above = &sums_[static_cast<std::size_t>(2 * (top * kWidth + left))];
+    float* const above = &sums_[std::size_t{2} * (top * kWidth + left)];
     AddTo(above, (1 - bottom) * across);
-    AddTo(above + 2 * kWidth, bottom * across);
+    AddTo(above + std::size_t{2} * kWidth, bottom * across);
     vectors_ += 1;
     all_log_flow_ += value;
   }
@@ -68,7 +68,8 @@ class CellAdder {
     CellSums result;
     for (int row = 0; row < kRows + 2; ++row) {
       for (int column = 0; column < kColumns + 2; ++column) {
-        const auto from = static_cast<std::size_t>(2 * (row * kWidth + column));
+        const auto from = std::size_t{2} * (static_cast<std::uint32_t>(row) * kWidth +
+                                            static_cast<std::uint32_t>(column));
         const auto to = static_cast<std::size_t>(std::clamp(row - 1, 0, kRows - 1) * kColumns +
                                                  std::clamp(column - 1, 0, kColumns - 1));
         result.weight[to] += sums_[from];
@@ -84,7 +85,7 @@ class CellAdder {
   // Two neighbouring cells, of each its weight and its log flow.
   using Four __attribute__((vector_size(16))) = float;
   // With a margin of one cell around the image.
-  static constexpr int kWidth = kColumns + 2;
+  static constexpr std::uint32_t kWidth = kColumns + 2;
 
   static void AddTo(float* sums, Four more) {
     Four four;
@@ -93,7 +94,7 @@ class CellAdder {
     std::memcpy(sums, &four, sizeof(four));
   }
 
-  std::array<float, static_cast<std::size_t>(2 * kWidth * (kRows + 2))> sums_{};
+  std::array<float, std::size_t{2} * kWidth*(kRows + 2)> sums_{};
   float vectors_ = 0;
   float all_log_flow_ = 0;
 };

@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <vector>
 
 #include "homing/landmark/flow_profile.h"
@@ -19,8 +18,6 @@ constexpr double kLeastHeading = 0.015;
 constexpr int kTries = 2;
 constexpr double kLeastOffsetStep = 0.06, kMostOffsetStep = 0.15;
 constexpr double kLeastHeadingStep = 0.04, kMostHeadingStep = 0.12;
-// A pose with a prior below e^-12 of the best is not compared.
-constexpr double kMostSurprise = 12;
 // Steps tried either way.
 constexpr std::int64_t kSteps = 10;
 // Log likelihood of a unit of profile distance. The pose is corrected each time that the robot has
@@ -44,8 +41,7 @@ struct PathPoseFilter::Tried {
   static constexpr int kCount = 2 * kTries + 1;
   std::array<double, kCount> offsets{};
   std::array<double, kCount> headings{};
-  // By heading and offset: minus the log prior, and the least distance over the steps; infinite
-  // where the pose is not compared.
+  // By heading and offset: minus the log prior, and the least distance over the steps.
   std::array<std::array<double, kCount>, kCount> surprises{};
   std::array<std::array<double, kCount>, kCount> distances{};
 };
@@ -93,12 +89,6 @@ PathPoseFilter::Tried PathPoseFilter::PosesToTry() const {
 void PathPoseFilter::CompareAtHeading(const JourneyMap& map, std::int64_t first, std::int64_t end,
                                       const ObservedFlow& flow, std::size_t heading,
                                       Tried& tried) const {
-  std::vector<std::size_t> offsets;
-  tried.distances[heading].fill(std::numeric_limits<double>::infinity());
-  for (std::size_t o = 0; o < tried.offsets.size(); ++o) {
-    if (tried.surprises[heading][o] <= kMostSurprise) offsets.push_back(o);
-  }
-  if (offsets.empty()) return;
   const auto steps = static_cast<std::size_t>(end - first);
   std::vector<std::uint16_t> distances(steps);
   std::array<std::vector<double>, Tried::kCount> sums;
@@ -109,7 +99,7 @@ void PathPoseFilter::CompareAtHeading(const JourneyMap& map, std::int64_t first,
     const ProfileMaker seen(
         Turned(*flow.fields[At(camera)], At(camera), tried.headings[heading] - turned_),
         OdometerReading{});
-    for (const std::size_t o : offsets) {
+    for (std::size_t o = 0; o < tried.offsets.size(); ++o) {
       const double nearer = camera == Side::kLeft ? tried.offsets[o] : -tried.offsets[o];
       const FlowProfile profile = seen.Make(1 - nearer);
       const CellMask covered = CoveredCells(1 - nearer);
@@ -118,7 +108,7 @@ void PathPoseFilter::CompareAtHeading(const JourneyMap& map, std::int64_t first,
       for (std::size_t i = 0; i < steps; ++i) sums[o][i] += distances[i] / share;
     }
   }
-  for (const std::size_t o : offsets) {
+  for (std::size_t o = 0; o < tried.offsets.size(); ++o) {
     tried.distances[heading][o] = *std::ranges::min_element(sums[o]);
   }
 }
