@@ -108,19 +108,7 @@ class Bombs {
 
   // 200 fingerprints that are similar to all stored ones.
   void Matches() {
-    v1::MatchLandmarksRequest request;
-    request.set_journey(kLandmarks);
-    request.set_travel(v1::TRAVEL_SAME);
-    request.set_threshold(0);
-    request.set_max_matches(1000);
-    for (v1::MatchView* view : {request.mutable_left(), request.mutable_right()}) {
-      for (int i = 0; i < 100; ++i) {
-        v1::Fingerprint* const seen = view->mutable_fingerprints()->add_fingerprints();
-        seen->set_x(101 + static_cast<float>(i) / 40);
-        seen->set_y(81);
-        seen->set_count(40);
-      }
-    }
+    const v1::MatchLandmarksRequest request = test::ManyFingerprints(kLandmarks);
     grpc::ClientContext context;
     v1::MatchLandmarksResponse response;
     const grpc::Status status = homing_->MatchLandmarks(&context, request, &response);

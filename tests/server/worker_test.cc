@@ -107,19 +107,7 @@ TEST_F(WorkerTest, TheAnalysisOfARouteThatRepeatsItselfHoldsUpNobody) {
 TEST_F(WorkerTest, AQueryOfManyFingerprintsHoldsUpNobodyAndEndsWhenNobodyWaits) {
   constexpr char kLong[] = "robots/r/journeys/long";
   ASSERT_THAT(Import(kLong, test::JourneyFile(60'000, 2), 1 << 20), IsGrpcOk());
-  v1::MatchLandmarksRequest request;
-  request.set_journey(kLong);
-  request.set_travel(v1::TRAVEL_SAME);
-  request.set_threshold(0);
-  request.set_max_matches(1000);
-  for (v1::MatchView* view : {request.mutable_left(), request.mutable_right()}) {
-    for (int i = 0; i < 100; ++i) {
-      v1::Fingerprint* const seen = view->mutable_fingerprints()->add_fingerprints();
-      seen->set_x(101 + static_cast<float>(i) / 40);
-      seen->set_y(81);
-      seen->set_count(40);
-    }
-  }
+  const v1::MatchLandmarksRequest request = test::ManyFingerprints(kLong);
   const auto match = [&](std::chrono::duration<double> most) {
     grpc::ClientContext context;
     context.set_deadline(std::chrono::system_clock::now() +

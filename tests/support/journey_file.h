@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <string>
 
+#include "homing/v1/homing_service.pb.h"
 #include "server/service/journey_archive.h"
 
 namespace homing::test {
@@ -25,6 +26,24 @@ inline std::string JourneyFile(std::int64_t steps, int per_side) {
     if (!map.Append(step).ok()) return "";
   }
   return server::EncodeJourney({}, map).value_or("");
+}
+
+// A query with 200 fingerprints that are similar to all of such a file.
+inline v1::MatchLandmarksRequest ManyFingerprints(const std::string& journey) {
+  v1::MatchLandmarksRequest request;
+  request.set_journey(journey);
+  request.set_travel(v1::TRAVEL_SAME);
+  request.set_threshold(0);
+  request.set_max_matches(1000);
+  for (v1::MatchView* view : {request.mutable_left(), request.mutable_right()}) {
+    for (int i = 0; i < 100; ++i) {
+      v1::Fingerprint* const seen = view->mutable_fingerprints()->add_fingerprints();
+      seen->set_x(101 + static_cast<float>(i) / 40);
+      seen->set_y(81);
+      seen->set_count(40);
+    }
+  }
+  return request;
 }
 
 }  // namespace homing::test
