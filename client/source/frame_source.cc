@@ -24,7 +24,7 @@ bool IsFolderOrGlob(const std::string& source) {
   return source.find_first_of("*?[") != std::string::npos;
 }
 
-// The bags of a folder: rosbag2 records one or more into a folder of its own.
+// The bags of a folder: rosbag2 makes a folder for each recording, with one bag or more.
 std::vector<std::string> BagsIn(const std::string& folder) {
   std::vector<std::string> bags;
   std::error_code error;

@@ -179,7 +179,8 @@ double RouteBelief::Move(double change, double restart) {
 
 double RouteBelief::MoveUnseen(double restart) {
   double left = 1;
-  for (int i = 0; i < kUnseenMoves; ++i) left *= 1 - MoveMixing(0, 1, i == 0 ? restart : 0);
+  for (int i = 0; i < kUnseenMoves; ++i)
+    left *= 1 - MoveMixing(0, 1 - kTurnBack, i == 0 ? restart : 0);
   return 1 - left;
 }
 
