@@ -1,7 +1,9 @@
 #include "storage/postgres/pg_writer.h"
 
 #include <thread>
+#include <utility>
 
+#include "absl/strings/str_cat.h"
 #include "homing/base/status_macros.h"
 #include "storage/postgres/pg_status.h"
 
@@ -11,6 +13,12 @@ namespace {
 // A robot that waits longer for an answer does better with another server.
 constexpr std::chrono::milliseconds kWriteTime{10'000};
 constexpr std::chrono::milliseconds kRetryPause{50};
+
+// The last try is often cut short by the deadline; the one before says what is wrong.
+absl::Status WithReason(const absl::Status& last, const absl::Status& before) {
+  if (before.ok() || before.message() == last.message()) return last;
+  return {last.code(), absl::StrCat(last.message(), "; before: ", before.message())};
+}
 
 }  // namespace
 
@@ -30,12 +38,15 @@ absl::Status PgWriter::Write(Scope scope, const Body& body) {
     return status.ok() ? ended : status;
   };
   const Deadline deadline = After(kWriteTime);
+  absl::Status before;
   while (true) {
     bool is_lost = false;
     absl::Status status =
         changes_.Use(scope == Scope::kOneStatement ? body : in_transaction, deadline, &is_lost);
     const bool is_again = absl::IsUnavailable(status) && (is_lost || IsConflict(status));
-    if (!is_again || After(kRetryPause) > deadline) return status;
+    if (!is_again) return status;
+    if (After(kRetryPause) > deadline) return WithReason(status, before);
+    before = std::move(status);
     std::this_thread::sleep_for(kRetryPause);
   }
 }
