@@ -36,8 +36,7 @@ absl::Status ExportStream::Prepare(ServiceCore* core, IncomingCall* call) {
   const MapsLock lock(one);
   HOMING_ASSIGN_OR_RETURN(file_, EncodeJourney(one.front()->record(), one.front()->map()));
   bytes_ = static_cast<std::int64_t>(file_.size());
-  const absl::Status status =
-      TakeMemory(*core, bytes_, "exports", "EXPORT_MEMORY", &core->export_bytes);
+  absl::Status status = TakeMemory(*core, bytes_, "exports", "EXPORT_MEMORY", &core->export_bytes);
   if (!status.ok()) file_ = {};
   return status;
 }

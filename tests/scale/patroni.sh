@@ -7,7 +7,8 @@
 set -eu
 command=$1
 folder=$2
-deploy=$(cd "$(dirname "$0")/../../deploy/scale" && pwd)
+here=$(cd "$(dirname "$0")" && pwd)
+deploy=$(cd "$here/../../deploy/scale" && pwd)
 etcd=42379
 
 as_postgres() {
@@ -26,7 +27,7 @@ background() {
   (
     exec >/dev/null 2>&1 </dev/null
     # shellcheck disable=SC2016 # expanded by the inner shell
-    as_postgres setsid sh -c 'echo $$ >"$1.pid"; log=$1.log; shift; exec "$@" >>"$log" 2>&1' sh "$folder/$name" "$@"
+    as_postgres setsid python3 "$here/reaper.py" sh -c 'echo $$ >"$1.pid"; log=$1.log; shift; exec "$@" >>"$log" 2>&1' sh "$folder/$name" "$@"
   ) &
 }
 
