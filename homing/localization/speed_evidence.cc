@@ -10,7 +10,7 @@ namespace {
 
 // Width of the ratio's distribution (Laplace): this many times its noise, at least kLeastWidth
 // octaves. A fraction kOutlierFraction of the ratios is six times as wide.
-constexpr double kWidthOfNoise = 4;
+constexpr double kWidthOfNoise = 3;
 constexpr double kLeastWidth = 0.08;
 constexpr double kOutlierFraction = 0.05;
 constexpr double kOutlierWidth = 6;
