@@ -20,7 +20,7 @@ constexpr double kHalfSpacing = 0.25;
 // A slower robot counts as standing, log2 of steps an observation.
 constexpr double kStanding = -3.6;
 // Noise at which the odometer counts half as good as it can be, octaves.
-constexpr double kHalfNoise = 0.087;
+constexpr double kHalfNoise = 0.12;
 // Consecutive ratios of a poor odometer err alike: exponent of what one says.
 constexpr double kPoorWeight = 0.3;
 // Probability an observation that the speed changes: with a poor odometer, and with a good one.
