@@ -38,6 +38,17 @@ stage_manifests() {
   return "$status"
 }
 
+# Files of answers, by Foxglove's own library. Uses the build of the tests.
+stage_mcap() {
+  command -v npm >/dev/null || skip "npm is not installed, so the library cannot be fetched"
+  command -v zstd >/dev/null || skip "zstd is not installed"
+  local server status=0
+  server=$(built_server) || skip "no build of the server"
+  sh tests/mcap/run.sh "${server%/server/homing-server}" || status=$?
+  [ "$status" -ne 3 ] || skip "the library cannot be fetched from the npm registry"
+  return "$status"
+}
+
 # The server that the stage of the tests built.
 built_server() {
   local root

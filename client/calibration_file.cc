@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <cstring>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <pugixml.hpp>
@@ -29,7 +28,7 @@ constexpr std::size_t kMaxBytes = 1 << 20;
 
 absl::StatusOr<std::string> ReadText(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
-  if (!file) return absl::NotFoundError(absl::StrCat(path, ": ", std::strerror(errno)));
+  if (!file) return absl::ErrnoToStatus(errno, path);
   std::string text(kMaxBytes, '\0');
   file.read(text.data(), static_cast<std::streamsize>(text.size()));
   text.resize(static_cast<std::size_t>(file.gcount()));
@@ -111,11 +110,13 @@ Json FirstOf(const Json& parent, const std::vector<const char*>& names) {
   return {};
 }
 
-// The numbers of a list, or of the data of a matrix.
+// The numbers of a list, or of the data of a matrix. Throws if one of them is none: the others
+// would move to its place.
 std::vector<double> NumbersOf(const Json& node) {
   std::vector<double> values;
   for (const Json& value : node.is_object() ? FirstOf(node, {"data"}) : node) {
-    if (value.is_number()) values.push_back(value.get<double>());
+    if (!value.is_number()) throw std::invalid_argument(value.dump() + " is no number");
+    values.push_back(value.get<double>());
   }
   return values;
 }
@@ -181,7 +182,7 @@ absl::StatusOr<CameraInfo> ParseCalibration(const std::string& text, const std::
   try {
     return ReadRoot(ReadTree(text), camera);
   } catch (const std::exception& error) {
-    return absl::InvalidArgumentError(absl::StrCat("it is no YAML or XML: ", error.what()));
+    return absl::InvalidArgumentError(absl::StrCat("it cannot be read: ", error.what()));
   }
 }
 

@@ -2,10 +2,10 @@
 
 #include <sys/stat.h>
 
-#include <algorithm>
 #include <utility>
 
 #include "absl/strings/str_cat.h"
+#include "homing/base/status_macros.h"
 #include "storage/sqlite_status.h"
 
 namespace homing::storage {
@@ -36,22 +36,20 @@ bool FileIdentity::IsLogCut() {
 absl::Status FileIdentity::Check() {
   const std::string log_path = path_ + "-wal";
   const MutexLock lock(mutex_);
-  const auto check = [](const std::string& path, const std::optional<File>& known,
-                        std::int64_t least) {
+  const auto check = [](const std::string& path, File* known, std::int64_t least) {
     const auto now = Look(path);
     if (!now) return Lost(path, "was removed");
     if (now->inode != known->inode || now->device != known->device) {
       return Lost(path, "was replaced by another file");
     }
-    return now->size < least ? Lost(path, "was cut") : absl::OkStatus();
+    if (now->size < least) return Lost(path, "was cut");
+    known->size = now->size;
+    return absl::OkStatus();
   };
-  if (database_) {
-    if (absl::Status status = check(path_, database_, database_->size); !status.ok()) return status;
-    // It never shrinks.
-    if (const auto grown = Look(path_)) database_->size = std::max(database_->size, grown->size);
-  }
+  // The database never shrinks.
+  if (database_) HOMING_RETURN_IF_ERROR(check(path_, &*database_, database_->size));
   if (!log_) log_ = Look(log_path);
-  return log_ ? check(log_path, log_, log_bytes_) : absl::OkStatus();
+  return log_ ? check(log_path, &*log_, log_bytes_) : absl::OkStatus();
 }
 
 }  // namespace homing::storage

@@ -66,10 +66,10 @@ void SqliteJourneyStore::NoteLogPages(int pages) {
 
 absl::Status SqliteJourneyStore::CheckFiles() {
   if (files_ == nullptr) return absl::OkStatus();
-  // A tool of SQLite that reads the file may move the log into it.
-  if (files_->IsLogCut()) {
-    if (const int pages = checkpointer_->CountPagesInLog(); pages >= 0) NoteLogPages(pages);
-  }
+  absl::Status status = files_->Check();
+  if (status.ok() || !files_->IsLogCut()) return status;
+  // A tool of SQLite that reads the file may have moved the log into it.
+  if (const int pages = checkpointer_->CountPagesInLog(); pages >= 0) NoteLogPages(pages);
   return files_->Check();
 }
 

@@ -77,21 +77,19 @@ class BagSource : public FrameSource {
   absl::Status ReadCamera() {
     const BagTopic* const info_topic = FindCameraInfo(bag_->topics(), *topic_);
     if (info_topic == nullptr) return absl::OkStatus();
-    const auto bytes = bag_->Read(info_topic->messages.front());
-    if (!bytes.ok()) return bytes.status();
-    HOMING_ASSIGN_OR_RETURN(const CameraInfo info, DecodeCameraInfo(*info_topic, *bytes));
-    const bool calibrated = std::any_of(info.matrix.begin(), info.matrix.end(),
-                                        [](double value) { return value != 0; });
-    if (!calibrated) return absl::OkStatus();
-    auto camera = ToCamera(info, IsRectified(*topic_));
-    if (!camera.ok()) {
-      return Within(absl::StrCat(path_, "#", info_topic->name), camera.status());
-    }
-    camera_ = *camera;
-    return absl::OkStatus();
+    return Within(absl::StrCat(path_, "#", info_topic->name), ReadCameraFrom(*info_topic));
   }
 
  private:
+  absl::Status ReadCameraFrom(const BagTopic& info_topic) {
+    HOMING_ASSIGN_OR_RETURN(const std::string bytes, bag_->Read(info_topic.messages.front()));
+    HOMING_ASSIGN_OR_RETURN(const CameraInfo info, DecodeCameraInfo(info_topic, bytes));
+    const bool calibrated = std::any_of(info.matrix.begin(), info.matrix.end(),
+                                        [](double value) { return value != 0; });
+    if (!calibrated) return absl::OkStatus();
+    HOMING_ASSIGN_OR_RETURN(camera_, ToCamera(info, IsRectified(*topic_)));
+    return absl::OkStatus();
+  }
   absl::StatusOr<SourceFrame> ReadFrame(const MessagePlace& place) {
     HOMING_ASSIGN_OR_RETURN(const std::string bytes, bag_->Read(place));
     return DecodeImage(*topic_, bytes);

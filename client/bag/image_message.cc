@@ -1,6 +1,8 @@
 #include "client/bag/image_message.h"
 
+#include <algorithm>
 #include <limits>
+#include <vector>
 
 #include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
@@ -95,6 +97,28 @@ absl::StatusOr<SourceFrame> FoxgloveCompressedImage(const BagTopic& topic, std::
   return frame;
 }
 
+// K and P describe the whole sensor. The images may show a part of it, with several of its pixels
+// in one (sensor_msgs/CameraInfo, binning and roi). A message that ends here shows all of it.
+void FitToImages(RosReader* reader, CameraInfo* info) {
+  const auto binning_x = std::max<std::uint32_t>(1, reader->Take<std::uint32_t>());
+  const auto binning_y = std::max<std::uint32_t>(1, reader->Take<std::uint32_t>());
+  const auto left = reader->Take<std::uint32_t>();
+  const auto top = reader->Take<std::uint32_t>();
+  const auto height = reader->Take<std::uint32_t>();
+  const auto width = reader->Take<std::uint32_t>();
+  info->width = (width > 0 ? width : info->width) / binning_x;
+  info->height = (height > 0 ? height : info->height) / binning_y;
+  for (std::vector<double>* values : {&info->matrix, &info->projection}) {
+    const std::size_t columns = values->size() / 3;
+    // All zeros mean that the camera is not calibrated.
+    if ((*values)[0] == 0) continue;
+    (*values)[0] /= binning_x;
+    (*values)[2] = ((*values)[2] - left) / binning_x;
+    (*values)[columns + 1] /= binning_y;
+    (*values)[columns + 2] = ((*values)[columns + 2] - top) / binning_y;
+  }
+}
+
 absl::StatusOr<CameraInfo> FoxgloveCamera(const BagTopic& topic, std::string_view bytes) {
   HOMING_ASSIGN_OR_RETURN(const auto message, Parse<foxglove::CameraCalibration>(topic, bytes));
   CameraInfo info;
@@ -143,6 +167,7 @@ absl::StatusOr<CameraInfo> DecodeCameraInfo(const BagTopic& topic, std::string_v
   reader.Doubles(9);
   info.projection = reader.Doubles(12);
   if (!reader.ok()) return Short(topic);
+  FitToImages(&reader, &info);
   return info;
 }
 

@@ -20,7 +20,8 @@ absl::StatusOr<SourceFrame> DecodeImage(const BagTopic& topic, std::string_view 
 // The stamp of such a message, nanoseconds; 0: it has none, or is damaged.
 std::int64_t StampOf(const BagTopic& topic, std::string_view bytes);
 
-// A message of a topic whose content is kCameraInfo. INVALID_ARGUMENT, DATA_LOSS.
+// A message of a topic whose content is kCameraInfo: the camera of the images, which may be binned
+// or show a part of the sensor. INVALID_ARGUMENT, DATA_LOSS.
 absl::StatusOr<CameraInfo> DecodeCameraInfo(const BagTopic& topic, std::string_view bytes);
 
 }  // namespace homing::client::bag

@@ -4,10 +4,11 @@
 #include <array>
 #include <opencv2/imgproc.hpp>
 #include <string>
-#include <vector>
+#include <utility>
 
 #include "absl/strings/str_cat.h"
 #include "homing/base/status_macros.h"
+#include "homing/image/deep_gray.h"
 
 namespace homing::client::bag {
 namespace {
@@ -97,21 +98,15 @@ std::string Pack(const RawImage& image, const Encoding& encoding, std::size_t ke
   return packed;
 }
 
-std::string Stretch(const std::string& packed, bool big_endian) {
-  std::vector<int> values(packed.size() / 2);
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    const int first = static_cast<unsigned char>(packed[2 * i]);
-    const int second = static_cast<unsigned char>(packed[2 * i + 1]);
-    values[i] = big_endian ? first * 256 + second : second * 256 + first;
+std::string GrayOf16Bit(std::string packed, const RawImage& image) {
+  // The machine counts as little endian, as in ByteReader.
+  for (std::size_t i = 0; image.big_endian && i < packed.size(); i += 2) {
+    std::swap(packed[i], packed[i + 1]);
   }
-  const auto [darkest, brightest] = std::minmax_element(values.begin(), values.end());
-  const int low = *darkest;
-  const int range = std::max(1, *brightest - low);
-  std::string stretched(values.size(), '\0');
-  std::transform(values.begin(), values.end(), stretched.begin(), [&](int value) {
-    return static_cast<char>(((value - low) * 255 + range / 2) / range);
-  });
-  return stretched;
+  const cv::Mat deep(static_cast<int>(image.height), static_cast<int>(image.width), CV_16UC1,
+                     packed.data());
+  const cv::Mat gray = StretchToGray8(deep);
+  return {reinterpret_cast<const char*>(gray.data), gray.total()};
 }
 
 absl::StatusOr<std::string> GrayOfBayer(std::string packed, const RawImage& image, int code) {
@@ -141,7 +136,7 @@ absl::StatusOr<SourceFrame> ConvertRawImage(const RawImage& image) {
       frame.data = Pack(image, encoding, 1);
       break;
     case Layout::kGray16:
-      frame.data = Stretch(Pack(image, encoding, 2), image.big_endian);
+      frame.data = GrayOf16Bit(Pack(image, encoding, 2), image);
       break;
     case Layout::kRgb:
     case Layout::kBgr:

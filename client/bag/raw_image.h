@@ -22,9 +22,8 @@ struct RawImage {
   std::string_view data;
 };
 
-// Grey stays grey; 16 bit is stretched from the darkest to the brightest pixel; of YUV the Y is
-// taken; Bayer patterns become grey; alpha is dropped. INVALID_ARGUMENT: another encoding, or fewer
-// bytes than it needs.
+// Grey stays grey; 16 bit is stretched as in a PNG file; of YUV the Y is taken; Bayer patterns
+// become grey; alpha is dropped. INVALID_ARGUMENT: another encoding, or fewer bytes than it needs.
 absl::StatusOr<SourceFrame> ConvertRawImage(const RawImage& image);
 
 }  // namespace homing::client::bag

@@ -9,7 +9,7 @@ from typing import (Any, AsyncIterable, AsyncIterator, Awaitable, Callable, Iter
 import grpc
 
 from . import convert
-from .connection import Retry, Server, Trace, credentials, options
+from .connection import Retry, Server, Trace, credentials, options, target
 from .errors import HomingError, from_rpc
 from .outbox import Outbox
 from .types import Answer, Camera, Journey, Match, Observation, Recorded, Travel, View
@@ -95,9 +95,9 @@ class AsyncClient:
         self._server = Server(address=server) if isinstance(server, str) else server
         self._trace = Trace(self._server)
         secret = credentials(self._server)
-        self._channel = (grpc.aio.insecure_channel(self._server.address, options())
-                         if secret is None else
-                         grpc.aio.secure_channel(self._server.address, secret, options()))
+        where, how = target(self._server), options(self._server)
+        self._channel = (grpc.aio.insecure_channel(where, how) if secret is None
+                         else grpc.aio.secure_channel(where, secret, how))
         self._journeys = journey_service_pb2_grpc.JourneyServiceStub(self._channel)
         self._homing = homing_service_pb2_grpc.HomingServiceStub(self._channel)
 
@@ -146,7 +146,9 @@ class AsyncClient:
                     outbox.begin(first.next_sequence, min(reference, first.next_sequence))
                     reported = max(reported, first.next_sequence - 1)
                     if sender is None:
-                        sender = _Sender(observations, outbox, window + first.next_sequence)
+                        # A source that begins again passes over what the server has.
+                        passed_over = 0 if live else first.next_sequence
+                        sender = _Sender(observations, outbox, window + passed_over)
                     writing = asyncio.ensure_future(_write(
                         call, sender,
                         lambda seen: journey_service_pb2.RecordJourneyRequest(observation=seen)))

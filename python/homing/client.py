@@ -9,7 +9,7 @@ from typing import Any, Callable, Iterable, Iterator, List, Optional, Union
 import grpc
 
 from . import convert
-from .connection import Retry, Server, Trace, credentials, options
+from .connection import Retry, Server, Trace, credentials, options, target
 from .errors import from_rpc
 from .outbox import Outbox
 from .types import Answer, Camera, Journey, Match, Observation, Recorded, Travel, View
@@ -101,8 +101,9 @@ class Client:
         self._server = Server(address=server) if isinstance(server, str) else server
         self._trace = Trace(self._server)
         secret = credentials(self._server)
-        self._channel = (grpc.insecure_channel(self._server.address, options()) if secret is None
-                         else grpc.secure_channel(self._server.address, secret, options()))
+        where, how = target(self._server), options(self._server)
+        self._channel = (grpc.insecure_channel(where, how) if secret is None
+                         else grpc.secure_channel(where, secret, how))
         self._journeys = journey_service_pb2_grpc.JourneyServiceStub(self._channel)
         self._homing = homing_service_pb2_grpc.HomingServiceStub(self._channel)
 

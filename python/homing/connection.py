@@ -6,8 +6,9 @@ import dataclasses
 import os
 import random
 import re
+import socket
 import time
-from typing import Optional, Sequence, Tuple
+from typing import Optional, Sequence, Tuple, Union
 
 import grpc
 
@@ -19,6 +20,7 @@ _MAX_CORRECTIONS = 3
 
 @dataclasses.dataclass(frozen=True)
 class Server:
+    # HOST:PORT; "HOST:PORT,HOST:PORT,..." or "dns:///NAME:PORT" for several servers on one database.
     address: str = "127.0.0.1:50551"
     # PEM files. Any of them turns TLS on; without tls_ca the system's authorities are trusted.
     tls_ca: Optional[str] = None
@@ -40,10 +42,33 @@ def _read(path: Optional[str]) -> Optional[bytes]:
         return file.read()
 
 
-def options() -> Sequence[Tuple[str, int]]:
-    return [("grpc.max_receive_message_length", _MAX_MESSAGE),
-            ("grpc.max_send_message_length", _MAX_MESSAGE),
-            ("grpc.max_reconnect_backoff_ms", 1000), ("grpc.initial_reconnect_backoff_ms", 100)]
+def target(server: Server) -> str:
+    """The name of the channel. Those of a list are resolved here: gRPC takes only their addresses."""
+    if "," not in server.address:
+        return server.address
+    numeric = []
+    for one in server.address.split(","):
+        host, _, port = one.rpartition(":")
+        try:
+            numeric.append(f"{socket.gethostbyname(host)}:{port}")
+        except OSError as error:
+            raise HomingError("UNAVAILABLE", f"address: {one}: {error}") from None
+    return "ipv4:" + ",".join(numeric)
+
+
+def options(server: Server) -> Sequence[Tuple[str, Union[int, str]]]:
+    common = [("grpc.max_receive_message_length", _MAX_MESSAGE),
+              ("grpc.max_send_message_length", _MAX_MESSAGE),
+              ("grpc.max_reconnect_backoff_ms", 1000),
+              ("grpc.initial_reconnect_backoff_ms", 100)]
+    if "," not in server.address and not server.address.startswith("dns:///"):
+        return common
+    # Calls are spread over the servers; one that falls silent is left within three seconds. The
+    # first one's name is that of the certificates.
+    name = server.address.split("dns:///")[-1].split(",")[0]
+    return common + [("grpc.lb_policy_name", "round_robin"), ("grpc.keepalive_time_ms", 1000),
+                     ("grpc.keepalive_timeout_ms", 2000),
+                     ("grpc.http2.max_pings_without_data", 0), ("grpc.default_authority", name)]
 
 
 def credentials(server: Server) -> Optional[grpc.ChannelCredentials]:

@@ -33,10 +33,8 @@ class BidiStream : public grpc::ServerBidiReactor<Request, Response>,
                    public OpenStream,
                    public std::enable_shared_from_this<BidiStream<Request, Response>> {
  public:
-  // `opening` handles the first request, which waits for the store.
-  BidiStream(ServiceCore* core, grpc::CallbackServerContext* context, Rpc rpc, WorkerPool* opening)
+  BidiStream(ServiceCore* core, grpc::CallbackServerContext* context, Rpc rpc)
       : core_(core),
-        opening_(opening),
         call_(core, *context, rpc),
         watch_(core, context),
         strand_(std::make_shared<Strand>(&core->pool)) {}
@@ -97,13 +95,13 @@ class BidiStream : public grpc::ServerBidiReactor<Request, Response>,
       }
       const std::size_t bytes = incoming_->ByteSizeLong();
       window_.Add(bytes);
+      WorkerPool* const store_pool = StorePoolOf(*incoming_);
       task = [self = this->shared_from_this(), request = std::move(incoming_)] {
         self->HandleGuarded(*request);
       };
       read_after_answer = policy_.NoteWait(std::chrono::steady_clock::now() - read_begin_);
-      WorkerPool* const opening = std::exchange(opening_, nullptr);
-      if (opening != nullptr || !policy_.RunsInline(bytes)) {
-        strand_->PostTo(opening != nullptr ? opening : &core_->pool, std::move(task));
+      if (store_pool != nullptr || !policy_.RunsInline(bytes)) {
+        strand_->PostTo(store_pool != nullptr ? store_pool : &core_->pool, std::move(task));
         reading_ = false;
         ReadNext();
         return;
@@ -148,6 +146,9 @@ class BidiStream : public grpc::ServerBidiReactor<Request, Response>,
   }
 
  protected:
+  // The pool that handles a request which may wait for the store; null: it only computes. Called
+  // for each request as it is read, in order, on gRPC's threads.
+  virtual WorkerPool* StorePoolOf(const Request& request) = 0;
   // Handles one request at a time, in order. Each one leads to one Answer, one NoAnswer or an End.
   virtual absl::Status Handle(const Request& request) = 0;
   // Ends the stream after the answers to earlier requests.
@@ -261,8 +262,6 @@ class BidiStream : public grpc::ServerBidiReactor<Request, Response>,
   }
 
   ServiceCore* const core_;
-  // Null after the first request. Used by gRPC's reads alone.
-  WorkerPool* opening_;
   IncomingCall call_;
   StreamWatch watch_;
   const std::shared_ptr<Strand> strand_;

@@ -1,9 +1,10 @@
-// Runs one unary RPC in the worker pool, so that I/O threads never compute.
+// Runs one unary RPC in worker pools, so that I/O threads never compute.
 #ifndef SERVER_RPC_UNARY_CALL_H_
 #define SERVER_RPC_UNARY_CALL_H_
 
 #include <grpcpp/support/server_callback.h>
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <type_traits>
@@ -28,45 +29,77 @@ class UnaryCancellation : public Cancellation {
   const grpc::CallbackServerContext* const context_;
 };
 
+// One unary call, until it is answered.
+class UnaryCall : public std::enable_shared_from_this<UnaryCall> {
+ public:
+  UnaryCall(ServiceCore* core, grpc::CallbackServerContext* context, Rpc rpc)
+      : core_(core),
+        context_(context),
+        reactor_(context->DefaultReactor()),
+        incoming_(core, *context, rpc) {}
+
+  grpc::ServerUnaryReactor* reactor() { return reactor_; }
+  IncomingCall& incoming() { return incoming_; }
+  // The caller is known, and the server does not drain.
+  absl::Status Admit() const {
+    return core_->streams.draining() ? DrainingError() : incoming_.identified();
+  }
+  void Finish(const absl::Status& status) { reactor_->Finish(incoming_.Finish(status)); }
+  // Runs `work` in `pool` if the client still waits by then, and calls `end` with its status.
+  template <typename Work, typename End>
+  void RunIn(WorkerPool* pool, Work work, End end) {
+    auto task = [self = shared_from_this(), work = std::move(work), end = std::move(end)] {
+      const TraceScope scope(self->incoming_.trace());
+      end(Guarded([&] {
+        const UnaryCancellation cancellation(self->context_);
+        HOMING_RETURN_IF_ERROR(CheckAwaited(&cancellation));
+        return work();
+      }));
+    };
+    if (!pool->TryRun(std::move(task))) Finish(BusyError());
+  }
+
+ private:
+  ServiceCore* const core_;
+  grpc::CallbackServerContext* const context_;
+  grpc::ServerUnaryReactor* const reactor_;
+  IncomingCall incoming_;
+};
+
 // `call` is absl::Status(const JourneyFilter&), or takes the IncomingCall too. It runs only if the
 // caller may do this to `resource`, and may use the RPC's request and response, which outlive it.
-// For a pattern it must apply the filter. `pool` belongs to the core.
+// For a pattern it must apply the filter. `pool` belongs to the core. `compute`, if given, is
+// absl::Status(), and runs in `compute_pool` after `call`, which then only waits for the store.
 template <typename Call>
 grpc::ServerUnaryReactor* ServeUnary(ServiceCore* core, grpc::CallbackServerContext* context,
                                      Rpc rpc, const std::string& resource, Call call,
-                                     WorkerPool* pool) {
-  grpc::ServerUnaryReactor* reactor = context->DefaultReactor();
-  const auto incoming = std::make_shared<IncomingCall>(core, *context, rpc);
-  absl::Status admitted = incoming->identified();
-  if (core->streams.draining()) {
-    admitted = DrainingError();
-  } else if (admitted.ok() &&
-             pool->TryRun([reactor, context, incoming, resource, call = std::move(call)] {
-               const TraceScope scope(incoming->trace());
-               reactor->Finish(incoming->Finish(Guarded([&] {
-                 const UnaryCancellation cancellation(context);
-                 HOMING_RETURN_IF_ERROR(CheckAwaited(&cancellation));
-                 absl::Status allowed = incoming->Authorize(resource);
-                 if (!allowed.ok()) return allowed;
-                 if constexpr (std::is_invocable_v<Call, JourneyFilter, const IncomingCall&>) {
-                   return call(incoming->filter(), *incoming);
-                 } else {
-                   return call(incoming->filter());
-                 }
-               })));
-             })) {
-    return reactor;
-  } else if (admitted.ok()) {
-    admitted = BusyError();
+                                     WorkerPool* pool, std::function<absl::Status()> compute = {},
+                                     WorkerPool* compute_pool = nullptr) {
+  const auto unary = std::make_shared<UnaryCall>(core, context, rpc);
+  const auto finish = [unary](const absl::Status& status) { unary->Finish(status); };
+  if (const absl::Status admitted = unary->Admit(); !admitted.ok()) {
+    finish(admitted);
+    return unary->reactor();
   }
-  reactor->Finish(incoming->Finish(admitted));
-  return reactor;
-}
-
-template <typename Call>
-grpc::ServerUnaryReactor* ServeUnary(ServiceCore* core, grpc::CallbackServerContext* context,
-                                     Rpc rpc, const std::string& resource, Call call) {
-  return ServeUnary(core, context, rpc, resource, std::move(call), &core->pool);
+  unary->RunIn(
+      pool,
+      [unary, resource, call = std::move(call)]() -> absl::Status {
+        IncomingCall& incoming = unary->incoming();
+        HOMING_RETURN_IF_ERROR(incoming.Authorize(resource));
+        if constexpr (std::is_invocable_v<Call, JourneyFilter, const IncomingCall&>) {
+          return call(incoming.filter(), incoming);
+        } else {
+          return call(incoming.filter());
+        }
+      },
+      [unary, finish, compute = std::move(compute), compute_pool](const absl::Status& status) {
+        if (status.ok() && compute) {
+          unary->RunIn(compute_pool, compute, finish);
+        } else {
+          finish(status);
+        }
+      });
+  return unary->reactor();
 }
 
 }  // namespace homing::server

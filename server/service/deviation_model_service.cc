@@ -45,7 +45,8 @@ grpc::ServerUnaryReactor* DeviationModelServiceHandler::TrainDeviationModel(
                                                     trained.deviations_px.end());
         }
         return absl::OkStatus();
-      });
+      },
+      &core_->long_work);
 }
 
 grpc::ServerUnaryReactor* DeviationModelServiceHandler::GetDeviationModel(

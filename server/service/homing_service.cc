@@ -1,5 +1,7 @@
 #include "server/service/homing_service.h"
 
+#include <memory>
+
 #include "homing/base/status_macros.h"
 #include "server/rpc/unary_call.h"
 #include "server/service/localize_stream.h"
@@ -19,25 +21,46 @@ bool IsLong(const v1::MatchLandmarksRequest& request) {
          kUsualFingerprints;
 }
 
+// One query: its journeys are loaded in one pool, and compared in another.
+class Search {
+ public:
+  Search(ServiceCore* core, const grpc::CallbackServerContext* context)
+      : core_(core), cancellation_(context), limits_(core->options.decode) {
+    limits_.cancellation = &cancellation_;
+  }
+
+  absl::Status Load(const v1::MatchLandmarksRequest& request, const JourneyFilter& filter) {
+    HOMING_ASSIGN_OR_RETURN(query_, DecodeLandmarkQuery(request, core_->options.wire));
+    query_.filter = filter;
+    HOMING_ASSIGN_OR_RETURN(journeys_, LoadQueryJourneys(&core_->catalog, query_, limits_));
+    return absl::OkStatus();
+  }
+
+  absl::Status Match(v1::MatchLandmarksResponse* response) const {
+    HOMING_ASSIGN_OR_RETURN(const LandmarkQueryResult result,
+                            server::MatchLandmarks(&core_->catalog, query_, journeys_, limits_));
+    *response = EncodeQueryResult(result);
+    return absl::OkStatus();
+  }
+
+ private:
+  ServiceCore* const core_;
+  const UnaryCancellation cancellation_;
+  DecodeLimits limits_;
+  LandmarkQuery query_;
+  QueryJourneys journeys_;
+};
+
 }  // namespace
 
 grpc::ServerUnaryReactor* HomingServiceHandler::MatchLandmarks(
     grpc::CallbackServerContext* context, const v1::MatchLandmarksRequest* request,
     v1::MatchLandmarksResponse* response) {
+  const auto search = std::make_shared<Search>(core_, context);
   return ServeUnary(
       core_, context, Rpc::kMatchLandmarks, request->journey(),
-      [core = core_, context, request, response](const JourneyFilter& filter) -> absl::Status {
-        HOMING_ASSIGN_OR_RETURN(LandmarkQuery query,
-                                DecodeLandmarkQuery(*request, core->options.wire));
-        query.filter = filter;
-        const UnaryCancellation cancellation(context);
-        DecodeLimits limits = core->options.decode;
-        limits.cancellation = &cancellation;
-        HOMING_ASSIGN_OR_RETURN(const LandmarkQueryResult result,
-                                server::MatchLandmarks(&core->catalog, query, limits));
-        *response = EncodeQueryResult(result);
-        return absl::OkStatus();
-      },
+      [search, request](const JourneyFilter& filter) { return search->Load(*request, filter); },
+      &core_->store_reads, [search, response] { return search->Match(response); },
       IsLong(*request) ? &core_->long_work : &core_->pool);
 }
 

@@ -13,9 +13,10 @@ namespace homing::server {
 class LocalizeStream final : public BidiStream<v1::LocalizeRequest, v1::LocalizeResponse> {
  public:
   LocalizeStream(ServiceCore* core, grpc::CallbackServerContext* context)
-      : BidiStream(core, context, Rpc::kLocalize, &core->store_reads) {}
+      : BidiStream(core, context, Rpc::kLocalize) {}
 
  protected:
+  WorkerPool* StorePoolOf(const v1::LocalizeRequest& request) override;
   absl::Status Handle(const v1::LocalizeRequest& request) override;
   void HandleDone() override {
     session_.reset();
@@ -28,6 +29,8 @@ class LocalizeStream final : public BidiStream<v1::LocalizeRequest, v1::Localize
   // Reports the answer to the watchers of the fleet.
   void Report(const v1::LocalizeResponse& answer, int journey);
 
+  // Of the requests read: the next one loads the maps.
+  bool loads_maps_ = false;
   std::unique_ptr<LocalizationSession> session_;
   // Null: the stream belongs to no robot.
   std::unique_ptr<FleetBoard::Presence> presence_;

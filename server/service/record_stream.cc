@@ -14,6 +14,12 @@ constexpr std::int64_t kQuotaEvery = 256;
 
 }  // namespace
 
+// The config claims the journey; a check of the quota lists the robot's journeys.
+WorkerPool* RecordStream::StorePoolOf(const v1::RecordJourneyRequest& request) {
+  const bool is_checked = request.has_observation() && ++read_ % kQuotaEvery == 0;
+  return request.has_config() || is_checked ? &core()->store_writes : nullptr;
+}
+
 absl::Status RecordStream::Handle(const v1::RecordJourneyRequest& request) {
   return TakeMessage(
       request, session_ != nullptr, [this](const auto& config) { return Begin(config); },
@@ -64,8 +70,7 @@ absl::Status RecordStream::Record(const v1::Observation& observation) {
 
 absl::Status RecordStream::CheckLimits() {
   HOMING_RETURN_IF_ERROR(call().TakeObservation());
-  return ++observations_ % kQuotaEvery == 0 ? core()->quota.CheckGrowth(journey_)
-                                            : absl::OkStatus();
+  return ++handled_ % kQuotaEvery == 0 ? core()->quota.CheckGrowth(journey_) : absl::OkStatus();
 }
 
 void RecordStream::EndInTurn(const absl::Status& status) {

@@ -14,9 +14,10 @@ namespace homing::server {
 class RecordStream final : public BidiStream<v1::RecordJourneyRequest, v1::RecordJourneyResponse> {
  public:
   RecordStream(ServiceCore* core, grpc::CallbackServerContext* context)
-      : BidiStream(core, context, Rpc::kRecordJourney, &core->store_writes) {}
+      : BidiStream(core, context, Rpc::kRecordJourney) {}
 
  protected:
+  WorkerPool* StorePoolOf(const v1::RecordJourneyRequest& request) override;
   absl::Status Handle(const v1::RecordJourneyRequest& request) override;
   // Ends the stream after the pending appends are committed.
   void EndInTurn(const absl::Status& status) override;
@@ -33,7 +34,9 @@ class RecordStream final : public BidiStream<v1::RecordJourneyRequest, v1::Recor
   std::shared_ptr<RecordingSession> session_;
   std::string journey_;
   std::shared_ptr<FleetBoard::Presence> presence_;
-  std::int64_t observations_ = 0;
+  // Observations read, and handled.
+  std::int64_t read_ = 0;
+  std::int64_t handled_ = 0;
 };
 
 }  // namespace homing::server

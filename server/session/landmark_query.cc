@@ -9,7 +9,6 @@
 #include "homing/base/status_macros.h"
 #include "homing/journey/see_landmarks.h"
 #include "server/catalog/fleet_index.h"
-#include "server/catalog/journey_selection.h"
 
 namespace homing::server {
 namespace {
@@ -117,6 +116,12 @@ bool IsAll(const JourneyName& pattern) {
   return pattern.robot == kWildcard && pattern.journey == kWildcard;
 }
 
+// The index cannot filter by caller: it serves callers that may read all.
+bool UsesIndex(const JourneyCatalog& catalog, const LandmarkQuery& query,
+               const JourneyName& pattern) {
+  return catalog.index() != nullptr && IsAll(pattern) && !query.filter;
+}
+
 absl::StatusOr<LandmarkQueryResult> MatchAll(FleetIndex* index, const LandmarkQuery& query,
                                              const QueryRobot& robot, const DecodeLimits& limits) {
   HOMING_ASSIGN_OR_RETURN(const LocalizerOptions options, index->Select(robot));
@@ -131,23 +136,34 @@ absl::StatusOr<LandmarkQueryResult> MatchAll(FleetIndex* index, const LandmarkQu
 
 }  // namespace
 
-absl::StatusOr<LandmarkQueryResult> MatchLandmarks(JourneyCatalog* catalog,
-                                                   const LandmarkQuery& query,
-                                                   const DecodeLimits& limits) {
+absl::StatusOr<QueryJourneys> LoadQueryJourneys(JourneyCatalog* catalog, const LandmarkQuery& query,
+                                                const DecodeLimits& limits) {
   HOMING_ASSIGN_OR_RETURN(const JourneyName pattern, ParseJourneyPattern(query.journey, "journey"));
   HOMING_RETURN_IF_ERROR(Validate(query.match));
   if (query.views[0].index() == 0 && query.views[1].index() == 0) {
     return FieldError("left", "must be set unless right is");
   }
-  HOMING_ASSIGN_OR_RETURN(const QueryRobot robot, MeasureRobot(query, limits));
-  // The index cannot filter by caller: it serves callers that may read all.
-  if (catalog->index() != nullptr && IsAll(pattern) && !query.filter) {
-    return MatchAll(catalog->index(), query, robot, limits);
+  QueryJourneys journeys;
+  HOMING_ASSIGN_OR_RETURN(journeys.robot, MeasureRobot(query, limits));
+  if (UsesIndex(*catalog, query, pattern)) {
+    return journeys;
   }
   HOMING_ASSIGN_OR_RETURN(const LiveJourneys covered,
                           catalog->Resolve(pattern, query.filter, limits.cancellation));
-  HOMING_ASSIGN_OR_RETURN(JourneySelection selection, SelectJourneys(covered, pattern, robot));
-  HOMING_RETURN_IF_ERROR(catalog->LoadMaps(pattern, &selection.journeys, limits.cancellation));
+  HOMING_ASSIGN_OR_RETURN(journeys.selection, SelectJourneys(covered, pattern, journeys.robot));
+  HOMING_RETURN_IF_ERROR(
+      catalog->LoadMaps(pattern, &journeys.selection.journeys, limits.cancellation));
+  return journeys;
+}
+
+absl::StatusOr<LandmarkQueryResult> MatchLandmarks(JourneyCatalog* catalog,
+                                                   const LandmarkQuery& query,
+                                                   const QueryJourneys& journeys,
+                                                   const DecodeLimits& limits) {
+  const JourneySelection& selection = journeys.selection;
+  if (selection.journeys.empty()) {
+    return MatchAll(catalog->index(), query, journeys.robot, limits);
+  }
   HOMING_ASSIGN_OR_RETURN(SeenNow now, See(query, selection.options, limits));
 
   LandmarkQueryResult result{now.motion, {}, std::move(now.sides)};

@@ -12,6 +12,7 @@
 #include "absl/status/statusor.h"
 #include "homing/matching/matcher.h"
 #include "server/catalog/journey_catalog.h"
+#include "server/catalog/journey_selection.h"
 
 namespace homing::server {
 
@@ -52,9 +53,23 @@ struct LandmarkQueryResult {
   SeenSides seen;
 };
 
+// What a query is compared with.
+struct QueryJourneys {
+  QueryRobot robot;
+  // With their maps; empty where the index of all journeys answers.
+  JourneySelection selection;
+};
+
+// Selects the journeys of a query and loads their maps: it may wait for the store.
 // INVALID_ARGUMENT, NOT_FOUND, FAILED_PRECONDITION (other camera).
+absl::StatusOr<QueryJourneys> LoadQueryJourneys(JourneyCatalog* catalog, const LandmarkQuery& query,
+                                                const DecodeLimits& limits);
+
+// Only computes. `journeys` are those of the query. INVALID_ARGUMENT; errors of the index of all
+// journeys.
 absl::StatusOr<LandmarkQueryResult> MatchLandmarks(JourneyCatalog* catalog,
                                                    const LandmarkQuery& query,
+                                                   const QueryJourneys& journeys,
                                                    const DecodeLimits& limits);
 
 }  // namespace homing::server

@@ -36,9 +36,12 @@ class EchoStream final
     : public server::BidiStream<v1::RecordJourneyRequest, v1::RecordJourneyResponse> {
  public:
   EchoStream(server::ServiceCore* core, grpc::CallbackServerContext* context)
-      : BidiStream(core, context, server::Rpc::kRecordJourney, &core->store_writes) {}
+      : BidiStream(core, context, server::Rpc::kRecordJourney) {}
 
  protected:
+  server::WorkerPool* StorePoolOf(const v1::RecordJourneyRequest& /*request*/) override {
+    return nullptr;
+  }
   absl::Status Handle(const v1::RecordJourneyRequest& request) override {
     Answer([&request](v1::RecordJourneyResponse* response) {
       if (request.has_observation()) {

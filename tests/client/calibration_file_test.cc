@@ -208,6 +208,10 @@ TEST_F(CalibrationFileTest, SaysWhatIsWrong) {
   std::string text = kRos;
   text.replace(text.find("plumb_bob"), 9, "thin_lens");
   EXPECT_THAT(Read(text), StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("thin_lens")));
+  // The coefficients behind it would move to its place.
+  text = kRos;
+  text.replace(text.find("0.125"), 5, "0,125x");
+  EXPECT_THAT(Read(text), StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("125x")));
   text = kRos;
   text.replace(text.find("438.5"), 5, "-4385");
   EXPECT_THAT(Read(text), StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("focal length")));

@@ -199,6 +199,45 @@ class ClientTest(unittest.TestCase):
         self.expect_ascending(recorded)
         self.assertEqual([one.sequence for one in answers], list(range(40)))
 
+    def test_asyncio_takes_no_more_from_a_live_camera_than_its_window(self):
+        self.start()
+
+        async def drive():
+            async with homing.AsyncClient(self.address) as client:
+                async for _ in client.record(JOURNEY, frames(40), finish=False):
+                    pass
+                taken, answered, most = 0, 0, 0
+
+                def camera():
+                    nonlocal taken, most
+                    for image in frames(40):
+                        taken += 1
+                        most = max(most, taken - answered)
+                        yield image
+
+                async for _ in client.record(JOURNEY, camera(), live=True, window=4):
+                    answered += 1
+                return answered, most
+
+        answered, most = asyncio.run(drive())
+        self.assertEqual(answered, 40)
+        self.assertLessEqual(most, 6)
+
+    def test_of_several_servers_one_that_answers_is_taken(self):
+        self.start()
+        for address in (f"127.0.0.1:9,{self.address}", f"{self.address},localhost:9",
+                        f"dns:///{self.address}"):
+            with homing.Client(address) as client:
+                self.assertEqual(list(client.journeys()), [])
+
+            async def count():
+                async with homing.AsyncClient(address) as client:
+                    return len([one async for one in client.journeys()])
+
+            self.assertEqual(asyncio.run(count()), 0)
+        with self.assertRaisesRegex(homing.HomingError, "no.such.host"):
+            homing.Client(f"no.such.host.invalid:9,{self.address}")
+
     def test_no_server(self):
         with homing.Client(homing.Server("127.0.0.1:9", retry_for=0.2)) as client:
             begun = time.monotonic()

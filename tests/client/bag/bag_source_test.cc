@@ -84,6 +84,18 @@ TEST_P(EveryBagTest, CameraInfoSetsTheCamera) {
   EXPECT_EQ(camera.distortion[1], 0.0625);
 }
 
+// The number of its coefficients is far too large.
+TEST(BagSourceTest, ADamagedCameraInfoIsNamed) {
+  TemporaryFolder folder;
+  std::string bytes = ReadFile(BagPath("none.bag"));
+  const std::string model("\x09\0\0\0plumb_bob", 13);
+  bytes[bytes.find(model) + model.size() + 3] = 0x7f;
+  WriteFile(folder.File("a.bag"), bytes);
+  EXPECT_THAT(OpenBagSource({folder.File("a.bag"), ""}, Side::kLeft),
+              StatusIs(absl::StatusCode::kDataLoss, AllOf(HasSubstr("a.bag#/cam/left/camera_info"),
+                                                          HasSubstr("not a complete"))));
+}
+
 INSTANTIATE_TEST_SUITE_P(Bags, EveryBagTest, ::testing::ValuesIn(kBags),
                          [](const auto& bag) { return TestName(bag.param); });
 

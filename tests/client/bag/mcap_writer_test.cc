@@ -24,7 +24,7 @@ foxglove::RawImage Image(int frame) {
   return image;
 }
 
-// make_mcap.mjs reads such files with @mcap/core.
+// tests/mcap reads such files with @mcap/core.
 TEST(McapWriterTest, WhatItWritesIsReadBack) {
   TemporaryFolder folder;
   std::ostringstream file;

@@ -62,7 +62,23 @@ TEST(RawImageTest, SixteenBitsAreStretched) {
   RawImage image = Image("16UC1", 4, big);
   image.big_endian = true;
   EXPECT_EQ(Bytes(image), std::string("\x00\x80\xff\x00", 4));
-  EXPECT_EQ(Bytes(Image("mono16", 4, std::string(8, '\5'))), std::string(4, '\0'));
+  EXPECT_EQ(Bytes(Image("mono16", 4, std::string(8, '\5'))), std::string(4, '\x80'));
+}
+
+// One dead pixel must not leave a few grey levels to the others, as in a PNG file.
+TEST(RawImageTest, ADeadPixelDoesNotSetTheRangeOfSixteenBits) {
+  constexpr std::uint32_t kSide = 64;
+  std::string pixels;
+  for (std::uint32_t i = 0; i < kSide * kSide; ++i) {
+    const std::uint32_t value = i == 100 ? 65535 : 7000 + i % 256;
+    pixels.push_back(static_cast<char>(value & 255));
+    pixels.push_back(static_cast<char>(value >> 8));
+  }
+  const auto frame = ConvertRawImage({kSide, kSide, 2 * kSide, "mono16", false, pixels});
+  ASSERT_THAT(frame, IsOk());
+  EXPECT_EQ(static_cast<unsigned char>(frame->data[0]), 0);
+  EXPECT_EQ(static_cast<unsigned char>(frame->data[128]), 128);
+  EXPECT_EQ(static_cast<unsigned char>(frame->data[255]), 255);
 }
 
 // A Bayer image of one colour: red pixels 200, green 100, blue 50.

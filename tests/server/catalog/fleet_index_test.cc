@@ -81,8 +81,8 @@ class FleetIndexTest : public SessionTest {
     JourneyCatalog plain(store_.get());
     std::size_t seen = 0;
     for (int place = 0; place < 25; ++place) {
-      const auto found = MatchLandmarks(catalog_.get(), QueryAt(place), {});
-      const auto scanned = MatchLandmarks(&plain, QueryAt(place), {});
+      const auto found = LoadAndMatch(catalog_.get(), QueryAt(place));
+      const auto scanned = LoadAndMatch(&plain, QueryAt(place));
       ASSERT_THAT(found, IsOk());
       ASSERT_THAT(scanned, IsOk());
       seen += scanned->matches.size();
@@ -160,13 +160,13 @@ TEST_F(FleetIndexTest, UntilItIsReadyOnlyNamedJourneysAnswer) {
   HeldStore held(store_.get());
   StartIndex(&held);
   LandmarkQuery query = QueryAt(3);
-  EXPECT_THAT(MatchLandmarks(catalog_.get(), query, {}).status(),
+  EXPECT_THAT(LoadAndMatch(catalog_.get(), query).status(),
               StatusIs(absl::StatusCode::kUnavailable, HasSubstr("still being built")));
   query.journey = "robots/r0/journeys/j";
-  EXPECT_THAT(MatchLandmarks(catalog_.get(), query, {}), IsOk());
+  EXPECT_THAT(LoadAndMatch(catalog_.get(), query), IsOk());
   held.Release(absl::OkStatus());
   AwaitReady();
-  EXPECT_THAT(MatchLandmarks(catalog_.get(), QueryAt(3), {}), IsOk());
+  EXPECT_THAT(LoadAndMatch(catalog_.get(), QueryAt(3)), IsOk());
   TearDown();
 }
 
@@ -185,7 +185,7 @@ TEST_F(FleetIndexTest, SaysWhyItCouldNotBeBuilt) {
 TEST_F(FleetIndexTest, WithoutJourneysThereIsNothingToFind) {
   StartIndex(store_.get());
   AwaitReady();
-  EXPECT_THAT(MatchLandmarks(catalog_.get(), QueryAt(3), {}).status(),
+  EXPECT_THAT(LoadAndMatch(catalog_.get(), QueryAt(3)).status(),
               StatusIs(absl::StatusCode::kNotFound, HasSubstr("no journey")));
 }
 
@@ -215,13 +215,13 @@ TEST_F(SessionTest, AWildcardLoadsNoMoreMapsThanTheCacheHolds) {
   query.journey = "robots/-/journeys/-";
   query.travel = Travel::kSame;
   query.views[0] = test::FieldAt(2, Side::kLeft);
-  EXPECT_THAT(MatchLandmarks(catalog_.get(), query, {}), IsOk());
+  EXPECT_THAT(LoadAndMatch(catalog_.get(), query), IsOk());
   // Room for one map and the journeys' records.
   JourneyCatalog small(store_.get(), CatalogOptions{.cache_bytes = 8000});
-  EXPECT_THAT(MatchLandmarks(&small, query, {}).status(),
+  EXPECT_THAT(LoadAndMatch(&small, query).status(),
               StatusIs(absl::StatusCode::kResourceExhausted, HasSubstr("map-cache")));
   query.journey = "robots/r1/journeys/j";
-  EXPECT_THAT(MatchLandmarks(&small, query, {}), IsOk());
+  EXPECT_THAT(LoadAndMatch(&small, query), IsOk());
 }
 
 }  // namespace

@@ -140,7 +140,7 @@ TEST_F(LocalizationSessionTest, FingerprintsAreMatchedAsTheyAre) {
   seen.y = stored.y;
   seen.count = stored.count;
   query.views[0] = SeenFingerprints{0, 0, {seen}};
-  const auto result = MatchLandmarks(catalog_.get(), query, {});
+  const auto result = LoadAndMatch(catalog_.get(), query);
   ASSERT_THAT(result, IsOk());
   EXPECT_FALSE(result->motion);
   ASSERT_FALSE(result->matches.empty());
@@ -148,7 +148,7 @@ TEST_F(LocalizationSessionTest, FingerprintsAreMatchedAsTheyAre) {
   EXPECT_DOUBLE_EQ(result->matches[0].match.similarity.p_t, 1);
   seen.x = std::nanf("");
   query.views[0] = SeenFingerprints{0, 0, {seen}};
-  EXPECT_THAT(MatchLandmarks(catalog_.get(), query, {}),
+  EXPECT_THAT(LoadAndMatch(catalog_.get(), query),
               StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("nan")));
 }
 

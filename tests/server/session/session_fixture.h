@@ -10,7 +10,9 @@
 #include <vector>
 
 #include "homing/base/mutex.h"
+#include "homing/base/status_macros.h"
 #include "server/catalog/journey_catalog.h"
+#include "server/session/landmark_query.h"
 #include "server/session/recording_session.h"
 #include "storage/commit_queue.h"
 #include "tests/support/route.h"
@@ -20,6 +22,13 @@
 namespace homing::server {
 
 inline constexpr char kJourney[] = "robots/r/journeys/out";
+
+// Both parts of a query.
+inline absl::StatusOr<LandmarkQueryResult> LoadAndMatch(JourneyCatalog* catalog,
+                                                        const LandmarkQuery& query) {
+  HOMING_ASSIGN_OR_RETURN(const QueryJourneys journeys, LoadQueryJourneys(catalog, query, {}));
+  return MatchLandmarks(catalog, query, journeys, {});
+}
 
 // The answers of a recording stream; its listener may outlive it. Waits have no timeout: a lost
 // answer makes the test hang until the runner ends it.

@@ -7,7 +7,8 @@
 namespace homing::robot {
 
 struct Server {
-  // HOST:PORT or unix:PATH.
+  // HOST:PORT or unix:PATH. Of several servers on one database "HOST:PORT,HOST:PORT,...", or
+  // "dns:///NAME:PORT" where the name has several addresses: another one takes over within seconds.
   std::string address = "127.0.0.1:50551";
   // PEM files. Any of them turns TLS on; without `tls_ca` the system's authorities are trusted.
   std::string tls_ca = "";

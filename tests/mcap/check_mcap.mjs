@@ -1,6 +1,6 @@
 // Reads an MCAP file of homing localize --mcap-out with @mcap/core, by its index and from beginning
-// to end, and prints what is in it: node check_mcap.mjs FILE NODE_MODULES. Needs @mcap/core,
-// @mcap/support and protobufjs from npm, and the program zstd.
+// to end, and prints what is in it: node check_mcap.mjs FILE NODE_MODULES. Needs @mcap/core and
+// protobufjs from npm, and the program zstd.
 import { execFileSync } from "node:child_process";
 import { readFileSync } from "node:fs";
 import { createRequire } from "node:module";
