@@ -2,6 +2,7 @@
 #ifndef SERVER_RPC_UNARY_CALL_H_
 #define SERVER_RPC_UNARY_CALL_H_
 
+#include <google/protobuf/message.h>
 #include <grpcpp/support/server_callback.h>
 
 #include <memory>
@@ -15,6 +16,7 @@
 #include "server/rpc/incoming_call.h"
 #include "server/rpc/service_core.h"
 #include "server/rpc/status_conversion.h"
+#include "server/rpc/unary_reactor.h"
 
 namespace homing::server {
 
@@ -29,19 +31,20 @@ class UnaryCancellation : public Cancellation {
 };
 
 // `call` is absl::Status(const JourneyFilter&), or takes the IncomingCall too. It runs only if the
-// caller may do this to `resource`, and may use the RPC's request and response, which outlive it.
+// caller may do this to `resource`, and may use the RPC's request and `response`, which outlive it.
 // For a pattern it must apply the filter. `pool` belongs to the core.
 template <typename Call>
 grpc::ServerUnaryReactor* ServeUnary(ServiceCore* core, grpc::CallbackServerContext* context,
-                                     Rpc rpc, const std::string& resource, Call call,
+                                     Rpc rpc, const std::string& resource,
+                                     google::protobuf::Message* response, Call call,
                                      WorkerPool* pool) {
-  grpc::ServerUnaryReactor* reactor = context->DefaultReactor();
+  auto* const reactor = new UnaryReactor(core->answers);
   const auto incoming = std::make_shared<IncomingCall>(core, *context, rpc);
   absl::Status admitted = incoming->identified();
   if (core->streams.draining()) {
     admitted = DrainingError();
   } else if (admitted.ok() &&
-             pool->TryRun([reactor, context, incoming, resource, call = std::move(call)] {
+             pool->TryRun([reactor, context, incoming, resource, response, call = std::move(call)] {
                const TraceScope scope(incoming->trace());
                reactor->Finish(incoming->Finish(Guarded([&] {
                  const UnaryCancellation cancellation(context);
@@ -49,10 +52,11 @@ grpc::ServerUnaryReactor* ServeUnary(ServiceCore* core, grpc::CallbackServerCont
                  absl::Status allowed = incoming->Authorize(resource);
                  if (!allowed.ok()) return allowed;
                  if constexpr (std::is_invocable_v<Call, JourneyFilter, const IncomingCall&>) {
-                   return call(incoming->filter(), *incoming);
+                   HOMING_RETURN_IF_ERROR(call(incoming->filter(), *incoming));
                  } else {
-                   return call(incoming->filter());
+                   HOMING_RETURN_IF_ERROR(call(incoming->filter()));
                  }
+                 return reactor->Hold(response);
                })));
              })) {
     return reactor;
@@ -65,8 +69,9 @@ grpc::ServerUnaryReactor* ServeUnary(ServiceCore* core, grpc::CallbackServerCont
 
 template <typename Call>
 grpc::ServerUnaryReactor* ServeUnary(ServiceCore* core, grpc::CallbackServerContext* context,
-                                     Rpc rpc, const std::string& resource, Call call) {
-  return ServeUnary(core, context, rpc, resource, std::move(call), &core->pool);
+                                     Rpc rpc, const std::string& resource,
+                                     google::protobuf::Message* response, Call call) {
+  return ServeUnary(core, context, rpc, resource, response, std::move(call), &core->pool);
 }
 
 }  // namespace homing::server

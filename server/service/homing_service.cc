@@ -25,7 +25,7 @@ grpc::ServerUnaryReactor* HomingServiceHandler::MatchLandmarks(
     grpc::CallbackServerContext* context, const v1::MatchLandmarksRequest* request,
     v1::MatchLandmarksResponse* response) {
   return ServeUnary(
-      core_, context, Rpc::kMatchLandmarks, request->journey(),
+      core_, context, Rpc::kMatchLandmarks, request->journey(), response,
       [core = core_, context, request, response](const JourneyFilter& filter) -> absl::Status {
         HOMING_ASSIGN_OR_RETURN(LandmarkQuery query,
                                 DecodeLandmarkQuery(*request, core->options.wire));
