@@ -5,7 +5,10 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <filesystem>
 #include <future>
+#include <iterator>
+#include <thread>
 
 #include "homing/image/frame.h"
 #include "tests/server/server_fixture.h"
@@ -209,11 +212,15 @@ class DeafClient {
     }
   }
 
-  void Call(const std::string& method, const google::protobuf::Message& request) {
+  // Sends no request.
+  void Open(const std::string& method) {
     contexts_.push_back(std::make_unique<grpc::ClientContext>());
     calls_.push_back(stub_.PrepareCall(contexts_.back().get(), method, &queue_));
     calls_.back()->StartCall(nullptr);
     Await();
+  }
+  void Call(const std::string& method, const google::protobuf::Message& request) {
+    Open(method);
     const grpc::Slice slice(request.SerializeAsString());
     calls_.back()->WriteLast(grpc::ByteBuffer(&slice, 1), grpc::WriteOptions(), nullptr);
     Await();
@@ -229,6 +236,22 @@ class DeafClient {
   void* tag_ = nullptr;
   bool ok_ = false;
 };
+
+// Before any identity is shown.
+TEST_F(LimitsTest, StreamsOfReflectionTakeFewThreads) {
+  const auto threads = [] {
+    const std::filesystem::directory_iterator tasks("/proc/self/task");
+    return std::distance(begin(tasks), end(tasks));
+  };
+  DeafClient client(server_->address());
+  const auto before = threads();
+  for (int i = 0; i < 200; ++i) {
+    client.Open("/grpc.reflection.v1alpha.ServerReflection/ServerReflectionInfo");
+  }
+  std::this_thread::sleep_for(std::chrono::seconds(1));
+  EXPECT_LT(threads(), before + 64);
+  EXPECT_THAT(Create(), IsGrpcOk());
+}
 
 TEST_F(LimitsTest, AnswersThatNobodyReadsShareTheMemory) {
   options_.limits.memory_quota = 64 << 20;
