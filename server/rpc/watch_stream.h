@@ -41,7 +41,7 @@ class WatchStream : public grpc::ServerWriteReactor<Response>,
     absl::Status entered = call_.EnterWatch();
     if (!core_->streams.Add(self_)) {
       entered = DrainingError();
-    } else if (entered.ok() && !core_->pool.TryRun([self = self_] { self->Begin(); })) {
+    } else if (entered.ok() && !core_->store_reads.TryRun([self = self_] { self->Begin(); })) {
       entered = BusyError();
     }
     if (!entered.ok()) End(entered);
@@ -74,7 +74,7 @@ class WatchStream : public grpc::ServerWriteReactor<Response>,
   }
 
  protected:
-  // Checks the request, in a worker.
+  // Checks the request, in a worker that reads the store.
   virtual absl::Status Prepare(ServiceCore* core) = 0;
   // Fills in the next message; false: there is nothing new. Under the stream's lock.
   virtual bool Next(ServiceCore* core, const IncomingCall& call, Response* response) = 0;

@@ -84,30 +84,31 @@ absl::Status CountStoredJourneys(ServiceCore* core) {
 grpc::ServerUnaryReactor* FleetServiceHandler::ListRobots(grpc::CallbackServerContext* context,
                                                           const v1::ListRobotsRequest* request,
                                                           v1::ListRobotsResponse* response) {
-  return ServeUnary(core_, context, Rpc::kListRobots, "", response,
-                    [core = core_, request, response](const JourneyFilter& /*all*/,
-                                                      const IncomingCall& call) -> absl::Status {
-                      HOMING_ASSIGN_OR_RETURN(const int size, DecodePageSize(request->page_size()));
-                      HOMING_ASSIGN_OR_RETURN(std::string after,
-                                              DecodePageToken("robots", request->page_token()));
-                      HOMING_RETURN_IF_ERROR(CountStoredJourneys(core));
-                      for (bool more = true; more;) {
-                        const std::vector<v1::Robot> robots =
-                            core->fleet.List(after, kRecordsAtOnce);
-                        more = robots.size() == kRecordsAtOnce;
-                        for (const v1::Robot& robot : robots) {
-                          if (!call.SeesRobot(robot.name())) continue;
-                          if (response->robots_size() == size) {
-                            response->set_next_page_token(
-                                EncodePageToken("robots", response->robots(size - 1).name()));
-                            return absl::OkStatus();
-                          }
-                          *response->add_robots() = robot;
-                        }
-                        if (more) after = robots.back().name();
-                      }
-                      return absl::OkStatus();
-                    });
+  return ServeUnary(
+      core_, context, Rpc::kListRobots, "", response,
+      [core = core_, request, response](const JourneyFilter& /*all*/,
+                                        const IncomingCall& call) -> absl::Status {
+        HOMING_ASSIGN_OR_RETURN(const int size, DecodePageSize(request->page_size()));
+        HOMING_ASSIGN_OR_RETURN(std::string after,
+                                DecodePageToken("robots", request->page_token()));
+        HOMING_RETURN_IF_ERROR(CountStoredJourneys(core));
+        for (bool more = true; more;) {
+          const std::vector<v1::Robot> robots = core->fleet.List(after, kRecordsAtOnce);
+          more = robots.size() == kRecordsAtOnce;
+          for (const v1::Robot& robot : robots) {
+            if (!call.SeesRobot(robot.name())) continue;
+            if (response->robots_size() == size) {
+              response->set_next_page_token(
+                  EncodePageToken("robots", response->robots(size - 1).name()));
+              return absl::OkStatus();
+            }
+            *response->add_robots() = robot;
+          }
+          if (more) after = robots.back().name();
+        }
+        return absl::OkStatus();
+      },
+      &core_->store_reads);
 }
 
 grpc::ServerWriteReactor<v1::WatchFleetResponse>* FleetServiceHandler::WatchFleet(
