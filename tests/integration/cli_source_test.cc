@@ -157,11 +157,10 @@ TEST_F(CliSourceTest, ExportKeepsLinksAndRefusesReadOnlyFiles) {
 
 TEST_F(CliSourceTest, AFullDiskBehindStandardOutputIsAnError) {
   ASSERT_EQ(Record("sim:street,length=2").code, 0);
-  for (const std::string command :
-       {"journeys export " + std::string(kJourney) + " -", "backup -"}) {
-    const Ran ran = Run(
-        {"/bin/sh", "-c",
-         std::string(HOMING_PROGRAM) + " --server " + address_ + " " + command + " >/dev/full"});
+  const std::string program = std::string(HOMING_PROGRAM) + " --server " + address_;
+  for (const std::string& command : {" journeys export " + std::string(kJourney) + " - >/dev/full",
+                                     std::string(" backup - >/dev/full")}) {
+    const Ran ran = Run({"/bin/sh", "-c", program + command});
     EXPECT_EQ(ran.code, 1) << command;
     EXPECT_THAT(ran.errors, HasSubstr("No space left on device")) << command;
   }
