@@ -37,6 +37,9 @@ constexpr int kAgeGraceMs = 10'000;
 // Usually higher than --max-streams: the server refuses a stream beyond --max-streams with a
 // reason, while a stream beyond this limit waits.
 constexpr int kMaxConnectionStreams = 16'384;
+// The library's reflection holds a thread for each stream, and needs no identity. Further streams
+// are refused.
+constexpr int kMaxReflectionThreads = 32;
 // A token and the headers that proxies add take a few hundred bytes.
 constexpr int kMaxHeaderBytes = 8'192;
 
@@ -88,11 +91,12 @@ void Configure(const ServerOptions& options, grpc::ServerBuilder* builder) {
   // HTTP/2 announces these limits to each connection.
   builder->AddChannelArgument(GRPC_ARG_MAX_CONCURRENT_STREAMS, kMaxConnectionStreams);
   builder->AddChannelArgument(GRPC_ARG_MAX_METADATA_SIZE, kMaxHeaderBytes);
+  grpc::ResourceQuota quota("homing");
+  quota.SetMaxThreads(kMaxReflectionThreads);
   if (options.limits.memory_quota > 0) {
-    grpc::ResourceQuota quota("homing");
     quota.Resize(static_cast<std::size_t>(options.limits.memory_quota));
-    builder->SetResourceQuota(quota);
   }
+  builder->SetResourceQuota(quota);
   if (options.no_reflection) {
     builder->SetOption(std::make_unique<WithoutReflection>());
   }

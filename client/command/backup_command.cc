@@ -1,4 +1,3 @@
-#include <iostream>
 #include <memory>
 #include <string>
 
@@ -17,7 +16,7 @@ absl::Status BackUp(const Session& session, const std::string& path) {
   const auto write = [&](std::ostream& file) {
     return BackUpStore(connection, file, session.stop);
   };
-  if (path == "-") return write(std::cout);
+  if (path == "-") return WriteStandardOutput(write);
   HOMING_ASSIGN_OR_RETURN(const std::uintmax_t bytes, WriteOutputFile(path, write, session.stop));
   if (session.json) return session.PrintJson(Json{{"file", path}, {"bytes", bytes}});
   return session.Print(absl::StrCat(path, ": ", bytes, " bytes"));

@@ -10,6 +10,7 @@
 #include "client/command/drive_output.h"
 #include "client/command/flags.h"
 #include "client/command/progress.h"
+#include "client/command/real_range.h"
 #include "client/drive/home_drive.h"
 #include "client/journey_client.h"
 #include "client/live_localizer.h"
@@ -167,21 +168,21 @@ void AddDriveCommand(CLI::App& app, Session& session) {
   command
       .add_option("--start-left", flags->start_left_m,
                   "Start position to the left of the path, metres")
-      ->check(CLI::Range(-2.0, 2.0))
+      ->check(RealRange(-2.0, 2.0))
       ->capture_default_str();
   command
       .add_option("--start-heading", flags->start_heading_deg,
                   "Start heading to the left of the path, degrees")
-      ->check(CLI::Range(-45.0, 45.0))
+      ->check(RealRange(-45.0, 45.0))
       ->capture_default_str();
   command.add_option("--slip", flags->slip, "Greatest slip of a wheel, as a fraction")
-      ->check(CLI::Range(0.0, 0.5))
+      ->check(RealRange(0.0, 0.5))
       ->capture_default_str();
   command.add_option("--delay", flags->delay_ms, "Delay of the answers, ms")
-      ->check(CLI::Range(0.0, 2000.0))
+      ->check(RealRange(0.0, 2000.0))
       ->capture_default_str();
   command.add_option("--lost", flags->lost, "Fraction of the answers that are lost")
-      ->check(CLI::Range(0.0, 1.0))
+      ->check(RealRange(0.0, 1.0))
       ->capture_default_str();
   command.add_option("--seed", flags->seed, "Seed of slip, noise and losses")
       ->capture_default_str();

@@ -10,6 +10,7 @@
 #include "client/command/commands.h"
 #include "client/command/evaluation.h"
 #include "client/command/json_line.h"
+#include "client/command/real_range.h"
 #include "client/picture/position_picture.h"
 #include "homing/base/status_macros.h"
 
@@ -173,7 +174,7 @@ void AddEvaluateCommand(CLI::App& app, Session& session) {
       ->capture_default_str();
   command
       .add_option("--require", flags->require, "Least share that is right; below it: exit code 1")
-      ->check(CLI::Range(0.0, 1.0))
+      ->check(RealRange(0.0, 1.0))
       ->needs(home);
   command.add_option("--rows", flags->rows, "Rows of the table, 0 for all")
       ->check(CLI::Range(0, 1000000))

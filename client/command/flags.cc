@@ -3,13 +3,17 @@
 #include <unistd.h>
 
 #include <array>
+#include <chrono>
 #include <fstream>
+#include <future>
+#include <thread>
 
 #include "absl/strings/match.h"
 #include "absl/strings/numbers.h"
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_split.h"
 #include "client/calibration_file.h"
+#include "client/command/real_range.h"
 #include "client/source/frame_source.h"
 #include "client/source/view_window.h"
 #include "homing/base/field_error.h"
@@ -20,6 +24,8 @@ namespace homing::client {
 namespace {
 
 constexpr char kCameraForm[] = "fx,fy,cx,cy[,k1,k2,p1,p2,k3][,yaw=RAD] or FILE[#CAMERA][,yaw=RAD]";
+
+constexpr std::chrono::milliseconds kStopCheck{50};
 
 // Converts a status to CLI11's form: an error text, empty if the value is valid.
 std::string Explain(const absl::Status& status) { return std::string(status.message()); }
@@ -40,6 +46,16 @@ v1::Camera CameraOrNone(const std::string& text) {
   return camera.ok() ? *camera : v1::Camera();
 }
 
+absl::StatusOr<Cameras> OpenAll(const RobotFlags& flags) {
+  HOMING_ASSIGN_OR_RETURN(Cameras cameras, OpenCameras(flags.left, flags.right));
+  for (const Side side : {Side::kLeft, Side::kRight}) {
+    auto& camera = cameras[side == Side::kLeft ? 0 : 1];
+    if (camera == nullptr) continue;
+    HOMING_ASSIGN_OR_RETURN(camera, OpenWindow(std::move(camera), WindowOf(flags, side)));
+  }
+  return cameras;
+}
+
 void AddFrameChoice(CLI::App& command, FrameChoice& frames) {
   command.add_option("--every", frames.every, "Take every N-th frame")
       ->check(CLI::Range(std::int64_t{1}, std::int64_t{1'000'000}))
@@ -47,11 +63,11 @@ void AddFrameChoice(CLI::App& command, FrameChoice& frames) {
   command
       .add_option("--fps", frames.fps,
                   "Take at most this many frames a second, by the times of the source [all]")
-      ->check(CLI::Range(1e-3, 1e4));
+      ->check(RealRange(1e-3, 1e4));
   command
       .add_option("--seconds", frames.seconds,
                   "End after this many seconds of the source [at its end]")
-      ->check(CLI::Range(1e-3, 1e9));
+      ->check(RealRange(1e-3, 1e9));
   command.add_flag("--strict", frames.strict,
                    "End at a bad frame (empty, damaged, of another size) instead of skipping and "
                    "reporting it, and refuse frames of one camera without a partner of the other");
@@ -129,14 +145,15 @@ void AddRobotFlags(CLI::App& command, RobotFlags& flags) {
   AddFrameChoice(command, flags.frames);
 }
 
-absl::StatusOr<Cameras> OpenCameras(const RobotFlags& flags) {
-  HOMING_ASSIGN_OR_RETURN(Cameras cameras, OpenCameras(flags.left, flags.right));
-  for (const Side side : {Side::kLeft, Side::kRight}) {
-    auto& camera = cameras[side == Side::kLeft ? 0 : 1];
-    if (camera == nullptr) continue;
-    HOMING_ASSIGN_OR_RETURN(camera, OpenWindow(std::move(camera), WindowOf(flags, side)));
+absl::StatusOr<Cameras> OpenCameras(const RobotFlags& flags, const std::stop_token& stop) {
+  // The thread may wait in the system for a pipe's writer or a camera, and outlive this call.
+  std::packaged_task<absl::StatusOr<Cameras>()> open([flags] { return OpenAll(flags); });
+  std::future<absl::StatusOr<Cameras>> opened = open.get_future();
+  std::thread(std::move(open)).detach();
+  while (opened.wait_for(kStopCheck) != std::future_status::ready) {
+    if (stop.stop_requested()) return absl::CancelledError("stopped before the source was open");
   }
-  return cameras;
+  return opened.get();
 }
 
 std::optional<v1::Camera> CameraOf(const RobotFlags& flags, const Cameras& cameras, Side side) {

@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <optional>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -42,8 +43,9 @@ struct RobotFlags {
   v1::Camera right_intrinsics() const;
 };
 
-// The sources that the flags name, each as its crop and mask leave it. As OpenFrameSource.
-absl::StatusOr<Cameras> OpenCameras(const RobotFlags& flags);
+// The sources that the flags name, each as its crop and mask leave it. As OpenFrameSource;
+// CANCELLED: stopped while a source did not open, such as a pipe that no program writes to.
+absl::StatusOr<Cameras> OpenCameras(const RobotFlags& flags, const std::stop_token& stop);
 
 void AddRobotFlags(CLI::App& command, RobotFlags& flags);
 // The camera of a side: as the flags give it, else as the source describes it, else nothing.

@@ -1,7 +1,6 @@
 #include <cerrno>
 #include <filesystem>
 #include <fstream>
-#include <iostream>
 #include <memory>
 
 #include "absl/strings/str_cat.h"
@@ -169,12 +168,10 @@ absl::Status Delete(const Session& session, const JourneysFlags& flags) {
 absl::Status Export(const Session& session, const JourneysFlags& flags) {
   HOMING_ASSIGN_OR_RETURN(const Connection connection, session.Connect());
   JourneyClient client(&connection, session.stop);
-  if (flags.file == "-") return client.Export(flags.journey, std::cout);
-  HOMING_ASSIGN_OR_RETURN(
-      const std::uintmax_t bytes,
-      WriteOutputFile(
-          flags.file, [&](std::ostream& file) { return client.Export(flags.journey, file); },
-          session.stop));
+  const auto write = [&](std::ostream& file) { return client.Export(flags.journey, file); };
+  if (flags.file == "-") return WriteStandardOutput(write);
+  HOMING_ASSIGN_OR_RETURN(const std::uintmax_t bytes,
+                          WriteOutputFile(flags.file, write, session.stop));
   if (session.json) {
     return session.PrintJson(
         Json{{"journey", flags.journey}, {"file", flags.file}, {"bytes", bytes}});

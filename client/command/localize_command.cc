@@ -14,6 +14,7 @@
 #include "client/command/growing_file.h"
 #include "client/command/json_line.h"
 #include "client/command/progress.h"
+#include "client/command/real_range.h"
 #include "client/file/output_file.h"
 #include "client/homing_client.h"
 #include "client/journey_client.h"
@@ -129,7 +130,7 @@ class AnswerOutputs {
 };
 
 absl::Status Localize(const Session& session, const LocalizeFlags& flags) {
-  HOMING_ASSIGN_OR_RETURN(Cameras cameras, OpenCameras(flags.robot));
+  HOMING_ASSIGN_OR_RETURN(Cameras cameras, OpenCameras(flags.robot, session.stop));
   const LocalizingOptions options = MakeOptions(flags, cameras);
   HOMING_ASSIGN_OR_RETURN(
       auto instants,
@@ -186,7 +187,7 @@ void AddLocalizeCommand(CLI::App& app, Session& session) {
       "robots/ROBOT that localises, as `homing top` shows it; by default the robot in the "
       "journey's name");
   command.add_option("--threshold", flags->threshold, "Least P_T of a match")
-      ->check(CLI::Range(0.0, 1.0))
+      ->check(RealRange(0.0, 1.0))
       ->capture_default_str();
   command.add_option("--matches", flags->matches, "Most matches an answer")
       ->check(CLI::Range(1, 1000))
@@ -197,11 +198,11 @@ void AddLocalizeCommand(CLI::App& app, Session& session) {
   command
       .add_option("--match-probability", flags->match_probability,
                   "MATCH from this probability of the interval on [0.90]")
-      ->check(CLI::Range(0.0, 1.0));
+      ->check(RealRange(0.0, 1.0));
   command
       .add_option("--unknown-probability", flags->unknown_probability,
                   "UNKNOWN_PLACE from this probability off the route on [0.50]")
-      ->check(CLI::Range(0.0, 1.0));
+      ->check(RealRange(0.0, 1.0));
   command.add_flag("--paper-only", flags->paper_only,
                    "Place the robot by the paper's P_T alone, not by flow profiles");
   command.add_option("--window", flags->window, "Most observations sent and not yet answered")

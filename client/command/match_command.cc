@@ -6,6 +6,7 @@
 #include "client/command/flags.h"
 #include "client/command/image_pair.h"
 #include "client/command/json_line.h"
+#include "client/command/real_range.h"
 #include "client/homing_client.h"
 #include "homing/base/status_macros.h"
 #include "proto/wire/observation_conversion.h"
@@ -71,7 +72,7 @@ void AddMatchCommand(CLI::App& app, Session& session) {
       ->check(CheckImagePair);
   AddTravelFlag(command, flags->travel);
   command.add_option("--threshold", flags->threshold, "Least P_T of a match")
-      ->check(CLI::Range(0.0, 1.0))
+      ->check(RealRange(0.0, 1.0))
       ->capture_default_str();
   command.add_option("--matches", flags->matches, "Most matches")
       ->check(CLI::Range(1, 1000))

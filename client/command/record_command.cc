@@ -131,7 +131,7 @@ absl::StatusOr<v1::Journey> Close(JourneyClient& journeys, const RecordFlags& fl
 }
 
 absl::Status Record(const Session& session, const RecordFlags& flags) {
-  HOMING_ASSIGN_OR_RETURN(Cameras cameras, OpenCameras(flags.robot));
+  HOMING_ASSIGN_OR_RETURN(Cameras cameras, OpenCameras(flags.robot, session.stop));
   const CameraModels models = {CameraOf(flags.robot, cameras, Side::kLeft),
                                CameraOf(flags.robot, cameras, Side::kRight)};
   HOMING_ASSIGN_OR_RETURN(

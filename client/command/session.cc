@@ -5,6 +5,7 @@
 #include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
 #include "absl/strings/strip.h"
+#include "client/command/real_range.h"
 #include "client/rpc_status.h"
 #include "client/server_address.h"
 #include "homing/base/status_macros.h"
@@ -91,7 +92,7 @@ void AddCommonFlags(CLI::App& app, Session& session) {
                std::chrono::milliseconds(static_cast<std::int64_t>(seconds * 1000));
          },
          "How long to retry a broken connection, seconds [60]")
-      ->check(CLI::Range(0.0, 1e6));
+      ->check(RealRange(0.0, 1e6));
 }
 
 int ExitCode(const Session& session, const absl::Status& status) {

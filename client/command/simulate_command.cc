@@ -122,7 +122,11 @@ void AddSimulateCommand(CLI::App& app, Session& session) {
       ->check([](const std::string& text) {
         return std::string(ParseSimulationSpec(SceneText(text)).status().message());
       });
-  command.add_option("--out", flags->folder, "DIR to write to")->required();
+  command.add_option("--out", flags->folder, "DIR to write to")
+      ->required()
+      ->check([](const std::string& text) {
+        return std::string(text.empty() ? "must name a folder" : "");
+      });
   command.add_flag("--truth-only", flags->truth_only, "Write truth.csv and no frames");
   command.callback(
       [flags, &session] { session.run = [flags, &session] { return Simulate(session, *flags); }; });

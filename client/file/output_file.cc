@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <iostream>
 #include <thread>
 
 #include "absl/strings/str_cat.h"
@@ -87,6 +88,15 @@ absl::StatusOr<HeldPipe> AwaitReader(const std::string& path, const std::stop_to
 
 HeldPipe::~HeldPipe() {
   if (file_ >= 0) ::close(file_);
+}
+
+absl::Status WriteStandardOutput(const Write& write) {
+  const absl::Status status = write(std::cout);
+  if (!status.ok()) return status;
+  errno = 0;
+  std::cout.flush();
+  return std::cout ? absl::OkStatus()
+                   : CannotWrite("to standard output", errno == 0 ? ENOSPC : errno);
 }
 
 absl::StatusOr<std::uintmax_t> WriteOutputFile(const std::string& path, const Write& write,

@@ -35,6 +35,9 @@ class HeldPipe {
 // Returns once a program reads the pipe `path`, for other files at once. CANCELLED: stopped before.
 absl::StatusOr<HeldPipe> AwaitReader(const std::string& path, const std::stop_token& stop);
 
+// Writes to standard output and checks that all has arrived, which a full disk may not take.
+absl::Status WriteStandardOutput(const std::function<absl::Status(std::ostream&)>& write);
+
 // Creates or replaces `path` with the output of `write`; returns its size in bytes. A plain file is
 // replaced when all is written; a link stays a link; devices and pipes are written into (size 0), a
 // pipe once a program reads it. Errors of `write`, and the system's, for a file without write

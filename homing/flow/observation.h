@@ -24,8 +24,11 @@ inline constexpr std::array<const char*, 2> kCameraNames = {"left", "right"};
 // The input of one camera: nothing, a frame, or the flow from an earlier frame to this one.
 using CameraView = std::variant<std::monostate, Frame, FlowField>;
 
+// The largest sequence: the numbers after it do not overflow.
+inline constexpr std::int64_t kMostSequence = std::int64_t{1} << 62;
+
 struct Observation {
-  // From 0, without gaps.
+  // From 0 to kMostSequence, without gaps.
   std::int64_t sequence = 0;
   // Robot's clock, nanoseconds since the epoch; 0: not given.
   std::int64_t capture_time_ns = 0;

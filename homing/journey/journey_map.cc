@@ -47,11 +47,13 @@ absl::Status CheckFingerprints(const JourneyStep& step) {
 }
 
 absl::Status CheckStepSequence(const JourneyStep& step, std::int64_t least) {
-  if (step.sequence == kNextSequence || step.sequence >= least) {
+  const bool is_in_order = step.sequence == kNextSequence || step.sequence >= least;
+  if (is_in_order && step.sequence <= kMostSequence) {
     return absl::OkStatus();
   }
-  return MustBe(absl::StrCat("sequence of step ", step.step), step.sequence,
-                absl::StrCat("at least ", least));
+  return MustBe(
+      absl::StrCat("sequence of step ", step.step), step.sequence,
+      is_in_order ? absl::StrCat("at most ", kMostSequence) : absl::StrCat("at least ", least));
 }
 
 absl::Status JourneyMap::CheckLandmark(const JourneyStep& step, std::size_t index,

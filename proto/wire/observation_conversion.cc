@@ -86,6 +86,12 @@ void ViewToProto(const CameraView& view, v1::CameraView* message) {
   }
 }
 
+absl::Status CheckNumber(std::int64_t number, const char* field) {
+  if (number < 0) return MustBe(field, number, "at least 0");
+  if (number > kMostSequence) return MustBe(field, number, absl::StrCat("at most ", kMostSequence));
+  return absl::OkStatus();
+}
+
 bool IsEmpty(const CameraView& view) { return std::holds_alternative<std::monostate>(view); }
 
 }  // namespace
@@ -133,17 +139,13 @@ absl::StatusOr<FlowField> FromProto(const v1::FlowVectors& message, const std::s
 
 absl::StatusOr<Observation> FromProto(const v1::Observation& message, const WireLimits& limits) {
   Observation observation;
-  if (message.sequence() < 0) {
-    return MustBe("observation.sequence", message.sequence(), "at least 0");
-  }
+  HOMING_RETURN_IF_ERROR(CheckNumber(message.sequence(), "observation.sequence"));
   observation.sequence = message.sequence();
   HOMING_ASSIGN_OR_RETURN(observation.capture_time_ns,
                           FromProto(message.capture_time(), "observation.capture_time"));
   observation.break_before = message.break_before();
   if (message.has_frame()) {
-    if (message.frame() < 0) {
-      return MustBe("observation.frame", message.frame(), "at least 0");
-    }
+    HOMING_RETURN_IF_ERROR(CheckNumber(message.frame(), "observation.frame"));
     observation.frame = message.frame();
   }
   HOMING_ASSIGN_OR_RETURN(observation.views[0],

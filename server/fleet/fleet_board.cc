@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <iterator>
 #include <utility>
 
 namespace homing::server {
@@ -13,6 +14,8 @@ using google::protobuf::util::TimeUtil;
 
 // Half of the time within which a lost robot must be shown.
 constexpr std::chrono::milliseconds kPulse{500};
+
+constexpr std::size_t kLeastWatcherLimit = 64;
 
 // The watchers that still exist; the others are removed.
 std::vector<std::shared_ptr<FleetWatcher>> Alive(
@@ -197,8 +200,21 @@ FleetBoard::Update FleetBoard::Newest(const std::string& robot) const {
 
 void FleetBoard::Watch(const std::string& robot, const std::weak_ptr<FleetWatcher>& watcher) {
   const MutexLock lock(mutex_);
+  if (++watcher_count_ > watcher_limit_) RemoveOldWatchers();
   watchers_[robot].push_back(watcher);
   pulse_.NotifyAll();
+}
+
+// Of a robot that does nothing, nobody else removes them.
+void FleetBoard::RemoveOldWatchers() {
+  std::size_t left = 0;
+  for (auto i = watchers_.begin(); i != watchers_.end();) {
+    std::erase_if(i->second, [](const auto& watcher) { return watcher.expired(); });
+    left += i->second.size();
+    i = i->second.empty() ? watchers_.erase(i) : std::next(i);
+  }
+  watcher_count_ = left + 1;
+  watcher_limit_ = 2 * left + kLeastWatcherLimit;
 }
 
 FleetBoard::Counts FleetBoard::Count() const {

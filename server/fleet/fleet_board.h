@@ -3,6 +3,7 @@
 #ifndef SERVER_FLEET_FLEET_BOARD_H_
 #define SERVER_FLEET_FLEET_BOARD_H_
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <map>
@@ -76,7 +77,7 @@ class FleetBoard {
   Update Newest(const std::string& robot) const;
 
   // Wakes `watcher` after changes: of one robot at each answer, of all robots (empty name) at most
-  // twice a second.
+  // twice a second. Watchers that no longer exist take no more memory than those that do.
   void Watch(const std::string& robot, const std::weak_ptr<FleetWatcher>& watcher);
   struct Counts {
     int lost = 0;
@@ -101,6 +102,7 @@ class FleetBoard {
   // Changes the robot's entry, and wakes those that watch it.
   void Publish(const std::string& robot, const std::function<void(Entry*)>& change);
   void NoteSeen(Entry* entry);
+  void RemoveOldWatchers() HOMING_REQUIRES(mutex_);
   void RunPulse();
 
   const std::function<std::int64_t()> now_ns_;
@@ -109,6 +111,9 @@ class FleetBoard {
   ConditionVariable stop_;
   std::map<std::string, Entry> entries_ HOMING_GUARDED_BY(mutex_);
   std::map<std::string, Watchers> watchers_ HOMING_GUARDED_BY(mutex_);
+  // Entries of watchers_, and the number at which those that no longer exist are removed.
+  std::size_t watcher_count_ HOMING_GUARDED_BY(mutex_) = 0;
+  std::size_t watcher_limit_ HOMING_GUARDED_BY(mutex_) = 0;
   std::int64_t last_change_ HOMING_GUARDED_BY(mutex_) = 0;
   std::int64_t last_pulse_ HOMING_GUARDED_BY(mutex_) = 0;
   // The pulse waits for a change.

@@ -18,6 +18,8 @@ namespace {
 namespace pb = google::protobuf;
 
 constexpr std::chrono::seconds kTimeout{30};
+// Bytes of an answer before it becomes JSON, which takes several times as much for each browser.
+constexpr std::size_t kMaxAnswer = 4 << 20;
 
 int HttpStatusOf(absl::StatusCode code) {
   switch (code) {
@@ -102,7 +104,13 @@ ApiAnswer ApiGateway::Call(const std::string& method, const std::string& json,
   const grpc::Status status =
       grpc::internal::BlockingUnaryCall<pb::Message, pb::Message, pb::MessageLite, pb::MessageLite>(
           channel_.get(), call, &context, *request, response.get());
-  return status.ok() ? ApiAnswer{200, ToJson(*response)} : ToAnswer(status);
+  if (!status.ok()) return ToAnswer(status);
+  if (const std::size_t bytes = response->ByteSizeLong(); bytes > kMaxAnswer) {
+    return ToAnswer(absl::ResourceExhaustedError(
+        absl::StrCat("the answer has ", bytes, " bytes, and HTTP sends at most ", kMaxAnswer,
+                     "; ask for fewer with pageSize, or use gRPC")));
+  }
+  return {200, ToJson(*response)};
 }
 
 }  // namespace homing::server

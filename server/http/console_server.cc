@@ -1,5 +1,7 @@
 #include "server/http/console_server.h"
 
+#include <spdlog/spdlog.h>
+
 #include <thread>
 #include <utility>
 
@@ -59,7 +61,10 @@ absl::Status ConsoleServer::State::Listen() {
                                                "machine"));
   }
   address = absl::StrCat(options.address.substr(0, options.address.rfind(':')), ":", port);
-  thread = std::thread([this] { server.listen_after_bind(); });
+  thread = std::thread([this] {
+    if (!server.listen_after_bind()) spdlog::error("http: no more connections are accepted");
+    ended = true;
+  });
   return absl::OkStatus();
 }
 
@@ -80,7 +85,7 @@ void ConsoleServer::Stop() {
   }
   for (const auto& feed : feeds) feed->Stop();
   // stop() has no effect before the server listens.
-  while (!state_->server.is_running()) std::this_thread::yield();
+  while (!state_->server.is_running() && !state_->ended) std::this_thread::yield();
   state_->server.StopServing();
 }
 

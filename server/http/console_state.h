@@ -4,6 +4,7 @@
 
 #include <httplib.h>
 
+#include <atomic>
 #include <functional>
 #include <memory>
 #include <set>
@@ -59,6 +60,8 @@ struct ConsoleServer::State {
   Mutex mutex;
   std::set<std::shared_ptr<EventFeed>> feeds HOMING_GUARDED_BY(mutex);
   bool stopping HOMING_GUARDED_BY(mutex) = false;
+  // The server no longer listens: Stop was called, or the system reported an error.
+  std::atomic<bool> ended = false;
   std::thread thread;
 };
 

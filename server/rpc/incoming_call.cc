@@ -12,6 +12,7 @@
 #include "homing/base/status_macros.h"
 #include "server/base/error_reason.h"
 #include "server/base/trace_scope.h"
+#include "server/rpc/library_log.h"
 #include "server/rpc/status_conversion.h"
 
 namespace homing::server {
@@ -159,8 +160,15 @@ grpc::Status IncomingCall::Finish(const absl::Status& status) {
     core_->metrics->CallEnded(rpc_, status, elapsed.count());
     const MutexLock lock(mutex_);
     if (IsAudited(rpc_)) {
-      spdlog::info("audit: {} {} \"{}\": {}", caller_.identity.empty() ? "-" : caller_.identity,
-                   TraitsOf(rpc_).method, resource_, absl::StatusCodeToString(status.code()));
+      const std::string line =
+          absl::StrCat("audit: ", caller_.identity.empty() ? "-" : caller_.identity, " ",
+                       std::string(TraitsOf(rpc_).method), " \"", resource_,
+                       "\": ", absl::StatusCodeToString(status.code()));
+      if (identified_.ok()) {
+        spdlog::info("{}", line);
+      } else {
+        LogOfStranger(line);
+      }
     }
     // The client records the trace, so each of its calls gets a log line. A stranger cannot fill
     // the log with them.

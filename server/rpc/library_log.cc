@@ -9,6 +9,7 @@
 #include <string>
 #include <utility>
 
+#include "absl/strings/str_cat.h"
 #include "homing/base/mutex.h"
 
 namespace homing::server {
@@ -23,43 +24,48 @@ struct Budget {
   std::int64_t left_out = 0;
 };
 
-Budget& TheBudget() {
-  static Budget budget;
-  return budget;
-}
-
-void Log(spdlog::level::level_enum level, const char* library, const char* text) {
+// Writes the line unless there were too many of `kind`.
+void Log(Budget* budget, const char* kind, spdlog::level::level_enum level,
+         const std::string& text) {
   std::int64_t left_out = 0;
   {
-    Budget& budget = TheBudget();
-    const MutexLock lock(budget.mutex);
+    const MutexLock lock(budget->mutex);
     const auto now = std::chrono::steady_clock::now();
-    if (now - budget.begin >= std::chrono::minutes(1)) {
-      budget.begin = now;
-      budget.lines = 0;
-      left_out = std::exchange(budget.left_out, 0);
+    if (now - budget->begin >= std::chrono::minutes(1)) {
+      budget->begin = now;
+      budget->lines = 0;
+      left_out = std::exchange(budget->left_out, 0);
     }
-    if (++budget.lines > kLinesAMinute) {
-      ++budget.left_out;
+    if (++budget->lines > kLinesAMinute) {
+      ++budget->left_out;
       return;
     }
   }
-  if (left_out > 0) spdlog::warn("{} earlier lines of libraries were omitted", left_out);
-  spdlog::log(level, "{}: {}", library, text);
+  if (left_out > 0) spdlog::warn("{} earlier lines of {} were omitted", left_out, kind);
+  spdlog::log(level, "{}", text);
+}
+
+void LogOfLibrary(bool error, const char* library, const char* text) {
+  static Budget budget;
+  Log(&budget, "libraries", error ? spdlog::level::err : spdlog::level::info,
+      absl::StrCat(library, ": ", text));
 }
 
 void LogOfGrpc(gpr_log_func_args* line) {
-  const bool error = line->severity == GPR_LOG_SEVERITY_ERROR;
-  Log(error ? spdlog::level::err : spdlog::level::info, "gRPC", line->message);
+  LogOfLibrary(line->severity == GPR_LOG_SEVERITY_ERROR, "gRPC", line->message);
 }
 
 void LogOfProtobuf(google::protobuf::LogLevel level, const char* /*file*/, int /*line*/,
                    const std::string& message) {
-  const bool error = level >= google::protobuf::LOGLEVEL_ERROR;
-  Log(error ? spdlog::level::err : spdlog::level::info, "Protobuf", message.c_str());
+  LogOfLibrary(level >= google::protobuf::LOGLEVEL_ERROR, "Protobuf", message.c_str());
 }
 
 }  // namespace
+
+void LogOfStranger(const std::string& text) {
+  static Budget budget;
+  Log(&budget, "callers without an identity", spdlog::level::info, text);
+}
 
 void LimitLogOfLibraries() {
   gpr_set_log_function(&LogOfGrpc);

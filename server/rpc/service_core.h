@@ -16,6 +16,7 @@
 #include "server/admission/limits.h"
 #include "server/admission/rate_limiter.h"
 #include "server/admission/stream_limiter.h"
+#include "server/base/memory_budget.h"
 #include "server/base/worker_pool.h"
 #include "server/catalog/fleet_index.h"
 #include "server/catalog/journey_catalog.h"
@@ -107,6 +108,9 @@ struct ServiceCore {
   // Bytes of files that are being imported, and exported.
   std::atomic<std::int64_t> import_bytes = 0;
   std::atomic<std::int64_t> export_bytes = 0;
+  // Memory of the answers of unary calls that are not sent yet.
+  const std::shared_ptr<MemoryBudget> answers =
+      std::make_shared<MemoryBudget>(options.limits.memory_quota);
   storage::CommitQueue queue;
   StreamRegistry streams;
   // Runs long tasks, one at a time, so that robots do not wait for them.

@@ -2,6 +2,7 @@
 #ifndef SERVER_RPC_UNARY_CALL_H_
 #define SERVER_RPC_UNARY_CALL_H_
 
+#include <google/protobuf/message.h>
 #include <grpcpp/support/server_callback.h>
 
 #include <functional>
@@ -16,6 +17,7 @@
 #include "server/rpc/incoming_call.h"
 #include "server/rpc/service_core.h"
 #include "server/rpc/status_conversion.h"
+#include "server/rpc/unary_reactor.h"
 
 namespace homing::server {
 
@@ -32,10 +34,12 @@ class UnaryCancellation : public Cancellation {
 // One unary call, until it is answered.
 class UnaryCall : public std::enable_shared_from_this<UnaryCall> {
  public:
-  UnaryCall(ServiceCore* core, grpc::CallbackServerContext* context, Rpc rpc)
+  UnaryCall(ServiceCore* core, grpc::CallbackServerContext* context, Rpc rpc,
+            google::protobuf::Message* response)
       : core_(core),
         context_(context),
-        reactor_(context->DefaultReactor()),
+        response_(response),
+        reactor_(new UnaryReactor(core->answers)),
         incoming_(core, *context, rpc) {}
 
   grpc::ServerUnaryReactor* reactor() { return reactor_; }
@@ -44,7 +48,9 @@ class UnaryCall : public std::enable_shared_from_this<UnaryCall> {
   absl::Status Admit() const {
     return core_->streams.draining() ? DrainingError() : incoming_.identified();
   }
-  void Finish(const absl::Status& status) { reactor_->Finish(incoming_.Finish(status)); }
+  void Finish(const absl::Status& status) {
+    reactor_->Finish(incoming_.Finish(status.ok() ? reactor_->Hold(response_) : status));
+  }
   // Runs `work` in `pool` if the client still waits by then, and calls `end` with its status.
   template <typename Work, typename End>
   void RunIn(WorkerPool* pool, Work work, End end) {
@@ -62,20 +68,23 @@ class UnaryCall : public std::enable_shared_from_this<UnaryCall> {
  private:
   ServiceCore* const core_;
   grpc::CallbackServerContext* const context_;
-  grpc::ServerUnaryReactor* const reactor_;
+  google::protobuf::Message* const response_;
+  // Owns itself.
+  UnaryReactor* const reactor_;
   IncomingCall incoming_;
 };
 
 // `call` is absl::Status(const JourneyFilter&), or takes the IncomingCall too. It runs only if the
-// caller may do this to `resource`, and may use the RPC's request and response, which outlive it.
+// caller may do this to `resource`, and may use the RPC's request and `response`, which outlive it.
 // For a pattern it must apply the filter. `pool` belongs to the core. `compute`, if given, is
 // absl::Status(), and runs in `compute_pool` after `call`, which then only waits for the store.
 template <typename Call>
 grpc::ServerUnaryReactor* ServeUnary(ServiceCore* core, grpc::CallbackServerContext* context,
-                                     Rpc rpc, const std::string& resource, Call call,
+                                     Rpc rpc, const std::string& resource,
+                                     google::protobuf::Message* response, Call call,
                                      WorkerPool* pool, std::function<absl::Status()> compute = {},
                                      WorkerPool* compute_pool = nullptr) {
-  const auto unary = std::make_shared<UnaryCall>(core, context, rpc);
+  const auto unary = std::make_shared<UnaryCall>(core, context, rpc, response);
   const auto finish = [unary](const absl::Status& status) { unary->Finish(status); };
   if (const absl::Status admitted = unary->Admit(); !admitted.ok()) {
     finish(admitted);

@@ -74,7 +74,7 @@ class WatchStream : public grpc::ServerWriteReactor<Response>,
   }
 
  protected:
-  // Checks the request; it may wait for the store.
+  // Checks the request, in a worker that reads the store.
   virtual absl::Status Prepare(ServiceCore* core) = 0;
   // Fills in the next message; false: there is nothing new. Under the stream's lock.
   virtual bool Next(ServiceCore* core, const IncomingCall& call, Response* response) = 0;

@@ -33,7 +33,7 @@ grpc::ServerUnaryReactor* DeviationModelServiceHandler::TrainDeviationModel(
     grpc::CallbackServerContext* context, const v1::TrainDeviationModelRequest* request,
     v1::TrainDeviationModelResponse* response) {
   return ServeUnary(
-      core_, context, Rpc::kTrainDeviationModel, "",
+      core_, context, Rpc::kTrainDeviationModel, "", response,
       [core = core_, request, response](const JourneyFilter& /*all*/) -> absl::Status {
         HOMING_ASSIGN_OR_RETURN(
             const TrainedModel trained,
@@ -53,7 +53,7 @@ grpc::ServerUnaryReactor* DeviationModelServiceHandler::GetDeviationModel(
     grpc::CallbackServerContext* context, const v1::GetDeviationModelRequest* request,
     v1::DeviationModel* response) {
   return ServeUnary(
-      core_, context, Rpc::kGetDeviationModel, "",
+      core_, context, Rpc::kGetDeviationModel, "", response,
       [core = core_, request, response](const JourneyFilter& /*all*/) -> absl::Status {
         HOMING_ASSIGN_OR_RETURN(const storage::StoredModel model,
                                 core->models.Get(request->name()));
@@ -67,7 +67,7 @@ grpc::ServerUnaryReactor* DeviationModelServiceHandler::ListDeviationModels(
     grpc::CallbackServerContext* context, const v1::ListDeviationModelsRequest* request,
     v1::ListDeviationModelsResponse* response) {
   return ServeUnary(
-      core_, context, Rpc::kListDeviationModels, "",
+      core_, context, Rpc::kListDeviationModels, "", response,
       [core = core_, request, response](const JourneyFilter& /*all*/) -> absl::Status {
         return ListModelPage(*request, &core->models, response);
       },

@@ -85,7 +85,7 @@ grpc::ServerUnaryReactor* FleetServiceHandler::ListRobots(grpc::CallbackServerCo
                                                           const v1::ListRobotsRequest* request,
                                                           v1::ListRobotsResponse* response) {
   return ServeUnary(
-      core_, context, Rpc::kListRobots, "",
+      core_, context, Rpc::kListRobots, "", response,
       [core = core_, request, response](const JourneyFilter& /*all*/,
                                         const IncomingCall& call) -> absl::Status {
         HOMING_ASSIGN_OR_RETURN(const int size, DecodePageSize(request->page_size()));

@@ -58,7 +58,7 @@ grpc::ServerUnaryReactor* HomingServiceHandler::MatchLandmarks(
     v1::MatchLandmarksResponse* response) {
   const auto search = std::make_shared<Search>(core_, context);
   return ServeUnary(
-      core_, context, Rpc::kMatchLandmarks, request->journey(),
+      core_, context, Rpc::kMatchLandmarks, request->journey(), response,
       [search, request](const JourneyFilter& filter) { return search->Load(*request, filter); },
       &core_->store_reads, [search, response] { return search->Match(response); },
       IsLong(*request) ? &core_->long_work : &core_->pool);

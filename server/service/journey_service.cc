@@ -15,7 +15,7 @@ grpc::ServerUnaryReactor* JourneyServiceHandler::CreateJourney(
     grpc::CallbackServerContext* context, const v1::CreateJourneyRequest* request,
     v1::Journey* response) {
   return ServeUnary(
-      core_, context, Rpc::kCreateJourney, request->parent(),
+      core_, context, Rpc::kCreateJourney, request->parent(), response,
       [core = core_, request, response](const JourneyFilter& /*all*/) -> absl::Status {
         HOMING_ASSIGN_OR_RETURN(
             const storage::JourneyRecord wanted,
@@ -32,7 +32,7 @@ grpc::ServerUnaryReactor* JourneyServiceHandler::GetJourney(grpc::CallbackServer
                                                             const v1::GetJourneyRequest* request,
                                                             v1::Journey* response) {
   return ServeUnary(
-      core_, context, Rpc::kGetJourney, request->name(),
+      core_, context, Rpc::kGetJourney, request->name(), response,
       [core = core_, request, response](const JourneyFilter& /*all*/) -> absl::Status {
         HOMING_ASSIGN_OR_RETURN(const JourneyName name, ParseJourneyName(request->name(), "name"));
         HOMING_ASSIGN_OR_RETURN(const storage::JourneyRecord record,
@@ -47,7 +47,7 @@ grpc::ServerUnaryReactor* JourneyServiceHandler::ListJourneys(
     grpc::CallbackServerContext* context, const v1::ListJourneysRequest* request,
     v1::ListJourneysResponse* response) {
   return ServeUnary(
-      core_, context, Rpc::kListJourneys, request->parent(),
+      core_, context, Rpc::kListJourneys, request->parent(), response,
       [core = core_, request, response](const JourneyFilter& filter) -> absl::Status {
         return ListJourneyPage(*request, &core->catalog, filter, response);
       },
@@ -56,9 +56,9 @@ grpc::ServerUnaryReactor* JourneyServiceHandler::ListJourneys(
 
 grpc::ServerUnaryReactor* JourneyServiceHandler::DeleteJourney(
     grpc::CallbackServerContext* context, const v1::DeleteJourneyRequest* request,
-    v1::DeleteJourneyResponse* /*response*/) {
+    v1::DeleteJourneyResponse* response) {
   return ServeUnary(
-      core_, context, Rpc::kDeleteJourney, request->name(),
+      core_, context, Rpc::kDeleteJourney, request->name(), response,
       [core = core_, request](const JourneyFilter& /*all*/) -> absl::Status {
         HOMING_ASSIGN_OR_RETURN(const JourneyName name, ParseJourneyName(request->name(), "name"));
         return core->catalog.Delete(name.ToString());
@@ -70,7 +70,7 @@ grpc::ServerUnaryReactor* JourneyServiceHandler::FinishJourney(
     grpc::CallbackServerContext* context, const v1::FinishJourneyRequest* request,
     v1::FinishJourneyResponse* response) {
   return ServeUnary(
-      core_, context, Rpc::kFinishJourney, request->name(),
+      core_, context, Rpc::kFinishJourney, request->name(), response,
       [core = core_, request, response](const JourneyFilter& /*all*/) -> absl::Status {
         HOMING_ASSIGN_OR_RETURN(const JourneyName name, ParseJourneyName(request->name(), "name"));
         HOMING_RETURN_IF_ERROR(CheckWriterId(request->writer_id(), "writer_id"));
@@ -87,7 +87,7 @@ grpc::ServerUnaryReactor* JourneyServiceHandler::SetReaders(grpc::CallbackServer
                                                             const v1::SetReadersRequest* request,
                                                             v1::Journey* response) {
   return ServeUnary(
-      core_, context, Rpc::kSetReaders, request->name(),
+      core_, context, Rpc::kSetReaders, request->name(), response,
       [core = core_, request, response](const JourneyFilter& /*all*/) -> absl::Status {
         HOMING_ASSIGN_OR_RETURN(const JourneyName name, ParseJourneyName(request->name(), "name"));
         HOMING_ASSIGN_OR_RETURN(const auto readers, DecodeReaders(request->readers(), "readers"));
@@ -103,7 +103,7 @@ grpc::ServerUnaryReactor* JourneyServiceHandler::ListLandmarks(
     grpc::CallbackServerContext* context, const v1::ListLandmarksRequest* request,
     v1::ListLandmarksResponse* response) {
   return ServeUnary(
-      core_, context, Rpc::kListLandmarks, request->parent(),
+      core_, context, Rpc::kListLandmarks, request->parent(), response,
       [core = core_, request, response](const JourneyFilter& /*all*/) -> absl::Status {
         return ListLandmarkPage(*request, &core->catalog, response);
       },
@@ -114,7 +114,7 @@ grpc::ServerUnaryReactor* JourneyServiceHandler::AnalyzeAliasing(
     grpc::CallbackServerContext* context, const v1::AnalyzeAliasingRequest* request,
     v1::AnalyzeAliasingResponse* response) {
   return ServeUnary(
-      core_, context, Rpc::kAnalyzeAliasing, request->name(),
+      core_, context, Rpc::kAnalyzeAliasing, request->name(), response,
       [core = core_, context, request, response](const JourneyFilter& /*all*/) -> absl::Status {
         const UnaryCancellation cancellation(context);
         return DescribeAliasing(*request, &core->catalog, &cancellation, response);
@@ -126,7 +126,7 @@ grpc::ServerUnaryReactor* JourneyServiceHandler::DescribeRoute(
     grpc::CallbackServerContext* context, const v1::DescribeRouteRequest* request,
     v1::DescribeRouteResponse* response) {
   return ServeUnary(
-      core_, context, Rpc::kDescribeRoute, request->name(),
+      core_, context, Rpc::kDescribeRoute, request->name(), response,
       [core = core_, request, response](const JourneyFilter& /*all*/) -> absl::Status {
         return FillRouteDescription(*request, &core->catalog, response);
       },

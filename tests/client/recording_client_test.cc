@@ -194,6 +194,33 @@ TEST_F(RecordingClientTest, ResumesWhenTheServerIsRestarted) {
   EXPECT_TRUE(std::is_sorted(answered_.begin(), answered_.end()));
 }
 
+// However long the outage: the waits between two attempts stay short.
+TEST_F(RecordingClientTest, IsBackSoonAfterTheServer) {
+  using Clock = std::chrono::steady_clock;
+  FakeJourneyService service({});
+  auto server = std::make_unique<FakeServer>(&service);
+  const int port = server->port();
+  NumberedStream stream(1'000'000);
+  std::stop_source stop;
+  std::thread recording([&] {
+    Record(Connect("127.0.0.1:" + std::to_string(port)), &stream, stop.get_token()).IgnoreError();
+  });
+  const auto await_more = [&](std::size_t than) {
+    while (service.stored().size() <= than)
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  };
+  await_more(100);
+  server.reset();
+  std::this_thread::sleep_for(std::chrono::seconds(4));
+  const std::size_t before = service.stored().size();
+  server = std::make_unique<FakeServer>(&service, port);
+  const auto begin = Clock::now();
+  await_more(before);
+  EXPECT_LT(Clock::now() - begin, std::chrono::milliseconds(1500));
+  stop.request_stop();
+  recording.join();
+}
+
 TEST_F(RecordingClientTest, ALiveCameraMarksABreakWhenItResumes) {
   Faults faults;
   faults.break_after_received = {5};

@@ -38,12 +38,15 @@ TEST_F(CliExitCodeTest, WrongUsageIsTwo) {
       {"record", "--journey", kJourney, "--left", kShortScene, "--left-camera", "1,2"},
       {"record", "--journey", kJourney, "--left", kShortScene, "--no-such-flag"},
       {"localize", "--journey", kJourney, "--left", kShortScene, "--threshold", "7"},
+      {"localize", "--journey", kJourney, "--left", kShortScene, "--threshold", "nan"},
+      {"record", "--journey", kJourney, "--left", kShortScene, "--fps", "nan"},
       {"localize", "--journey", kJourney, "--left", kShortScene, "--travel", "sideways"},
       {"match", "--journey", kJourney, "--left", "only_one.png"},
       {"journeys"},
       {"journeys", "show"},
       {"train", "--width", "320"},
       {"simulate", "--scene", "moon", "--out", "/tmp"},
+      {"simulate", "--scene", "street,length=1", "--out", ""},
       {"draw", "--out", "a.svg"},
   };
   for (const auto& arguments : wrong) {

@@ -155,6 +155,17 @@ TEST_F(CliSourceTest, ExportKeepsLinksAndRefusesReadOnlyFiles) {
   EXPECT_EQ(std::filesystem::file_size(Path("kept")), 4U);
 }
 
+TEST_F(CliSourceTest, AFullDiskBehindStandardOutputIsAnError) {
+  ASSERT_EQ(Record("sim:street,length=2").code, 0);
+  const std::string program = std::string(HOMING_PROGRAM) + " --server " + address_;
+  for (const std::string& command : {" journeys export " + std::string(kJourney) + " - >/dev/full",
+                                     std::string(" backup - >/dev/full")}) {
+    const Ran ran = Run({"/bin/sh", "-c", program + command});
+    EXPECT_EQ(ran.code, 1) << command;
+    EXPECT_THAT(ran.errors, HasSubstr("No space left on device")) << command;
+  }
+}
+
 TEST_F(CliSourceTest, ExportWritesIntoAPipe) {
   ASSERT_EQ(Record("sim:street,length=2").code, 0);
   ASSERT_EQ(::mkfifo(Path("pipe").c_str(), 0600), 0);

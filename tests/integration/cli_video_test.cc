@@ -7,6 +7,7 @@
 #include <fstream>
 #include <opencv2/imgproc.hpp>
 #include <opencv2/videoio.hpp>
+#include <thread>
 
 #include "tests/integration/cli_fixture.h"
 
@@ -75,6 +76,16 @@ TEST_F(CliVideoTest, ACameraIsRecordedFromItsFirstFramesOn) {
   EXPECT_EQ(recording.Wait(), 0) << recording.Stderr();
   EXPECT_EQ(Shown()["state"], "FINISHED");
   EXPECT_GE(std::stoi(Shown()["step_count"].dump()), 18);
+}
+
+TEST_F(CliVideoTest, APipeThatNoProgramWritesToCanBeStopped) {
+  ASSERT_EQ(::mkfifo(Path("pipe").c_str(), 0600), 0);
+  Program recording(Command({"record", "--journey", kJourney, "--left", Path("pipe")}));
+  // Until the program handles signals.
+  std::this_thread::sleep_for(std::chrono::seconds(1));
+  recording.Signal(SIGINT);
+  EXPECT_EQ(recording.Wait(), 1);
+  EXPECT_THAT(recording.Stderr(), HasSubstr("stopped"));
 }
 
 TEST_F(CliVideoTest, OneThatEndsTooEarlyIsAnErrorAndTheJourneyNotFinished) {

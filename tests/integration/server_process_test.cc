@@ -65,6 +65,17 @@ TEST_F(ServerProcessTest, ItSaysWhereItListensIsHealthyAndStopsCleanly) {
   }
 }
 
+TEST_F(ServerProcessTest, ItsHealthIsAskedWithoutAProxy) {
+  Program server(Command({}));
+  const std::string address = AddressOf(&server);
+  for (const std::string name : {"http_proxy", "https_proxy", "grpc_proxy"}) {
+    EXPECT_EQ(Run({"/usr/bin/env", name + "=http://127.0.0.1:9", HOMING_SERVER_PROGRAM,
+                   "healthcheck", "--server", address}),
+              0)
+        << name;
+  }
+}
+
 TEST_F(ServerProcessTest, ItOpensAsManyConnectionsAsTheSystemAllows) {
   std::vector<std::string> command = {"/bin/sh", "-c", "ulimit -S -n 64 && exec \"$0\" \"$@\""};
   const std::vector<std::string> server_command = Command({});

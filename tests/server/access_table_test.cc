@@ -1,8 +1,13 @@
 // Role x method x owner over a real socket: the permitted calls, and the codes of the others.
 #include <google/protobuf/descriptor.h>
 
+#include <spdlog/sinks/ostream_sink.h>
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
 #include <chrono>
 #include <fstream>
+#include <sstream>
 #include <thread>
 
 #include "server/access/role.h"
@@ -206,6 +211,18 @@ TEST_P(AccessTableTest, ACallerWithoutCredentialsGetsNothing) {
       EXPECT_THAT(status.error_message(), Not(HasSubstr("guess")));
     }
   }
+}
+
+TEST_P(AccessTableTest, ACallerWithoutCredentialsFillsNoLog) {
+  std::ostringstream text;
+  const auto before = spdlog::default_logger();
+  spdlog::set_default_logger(std::make_shared<spdlog::logger>(
+      "test", std::make_shared<spdlog::sinks::ostream_sink_mt>(text)));
+  EveryRpc nobody(channel_, "");
+  for (int i = 0; i < 100; ++i) nobody.Call(Rpc::kDeleteJourney, kFleet);
+  spdlog::set_default_logger(before);
+  const std::string lines = text.str();
+  EXPECT_LE(std::count(lines.begin(), lines.end(), '\n'), 20);
 }
 
 TEST_P(AccessTableTest, HealthIsForEveryone) {

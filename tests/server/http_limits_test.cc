@@ -76,6 +76,18 @@ class RawClient {
 
 constexpr char kHealth[] = "GET /healthz HTTP/1.1\r\nHost: localhost\r\n\r\n";
 
+// On the port of gRPC.
+TEST_F(HttpLimitsTest, StreamsAndHeadersOfHttp2HaveAnnouncedLimits) {
+  StartServer();
+  RawClient client(server_->address(), "127.0.0.1");
+  const std::string no_settings{"\0\0\0\x04\0\0\0\0\0", 9};
+  ASSERT_TRUE(client.Send("PRI * HTTP/2.0\r\n\r\nSM\r\n\r\n" + no_settings));
+  const std::string answer = client.Receive(std::chrono::seconds(5));
+  // SETTINGS_MAX_CONCURRENT_STREAMS and SETTINGS_MAX_HEADER_LIST_SIZE.
+  EXPECT_THAT(answer, HasSubstr(std::string{"\0\x03\0\0\x40\0", 6}));
+  EXPECT_THAT(answer, HasSubstr(std::string{"\0\x06\0\0\x20\0", 6}));
+}
+
 TEST_F(HttpLimitsTest, HeadersWithoutEndAreCut) {
   StartServer();
   RawClient client(server_->metrics_address(), "127.0.0.1");
@@ -126,6 +138,30 @@ TEST_F(HttpLimitsTest, HalfRequestsDoNotDelayTheEndOfTheServer) {
   EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::milliseconds(3500));
 }
 
+// As after an error of accept that the library does not know.
+TEST_F(HttpLimitsTest, AServerThatNoLongerListensEnds) {
+  StartServer();
+  ASSERT_EQ(Browser().Get("/healthz")->status, 200);
+  const std::string address = server_->metrics_address();
+  const int port = std::stoi(address.substr(address.rfind(':') + 1));
+  for (int file = 0; file < 1000; ++file) {
+    int listens = 0;
+    socklen_t size = sizeof(listens);
+    sockaddr_in name{};
+    socklen_t name_size = sizeof(name);
+    if (::getsockopt(file, SOL_SOCKET, SO_ACCEPTCONN, &listens, &size) == 0 && listens != 0 &&
+        ::getsockname(file, reinterpret_cast<sockaddr*>(&name), &name_size) == 0 &&
+        ntohs(name.sin_port) == port) {
+      ASSERT_EQ(::shutdown(file, SHUT_RDWR), 0);
+    }
+  }
+  std::this_thread::sleep_for(std::chrono::milliseconds(200));
+  EXPECT_FALSE(Browser().Get("/healthz"));
+  const auto begin = std::chrono::steady_clock::now();
+  server_->Drain();
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(10));
+}
+
 TEST_F(HttpLimitsTest, AHandshakeHasAnEnd) {
   CertificateOrder order;
   order.folder = folder_.File("pki");
@@ -172,6 +208,28 @@ TEST_F(HttpLimitsTest, PackedBodiesAreNotUnpacked) {
   auto browser = Browser();
   EXPECT_EQ(browser.Post("/api/v1/login", {{"Content-Encoding", "gzip"}}, packed, "")->status, 401);
   EXPECT_EQ(browser.Post("/api/v1/login", token, "")->status, 200);
+}
+
+// Of a part the library would send what lies behind the answer in memory.
+TEST_F(HttpLimitsTest, AnAnswerEndsWhereItEnds) {
+  StartServer();
+  for (const char* range : {"bytes=0-1000", "bytes=2-100", "bytes=100-300", "bytes=0-0,0-500",
+                            "bytes=99999999999999-100000000000000"}) {
+    const auto answer = Browser().Get("/healthz", {{"Range", range}});
+    ASSERT_TRUE(answer) << range;
+    EXPECT_EQ(answer->status, 200) << range;
+    EXPECT_EQ(answer->body, "ok\n") << range;
+  }
+}
+
+// The library's patterns for forms take seconds of processor time for each request.
+TEST_F(HttpLimitsTest, NoBodyIsReadAsAForm) {
+  StartGuarded();
+  for (const char* type :
+       {"multipart/form-data; boundary=x", "application/x-www-form-urlencoded"}) {
+    EXPECT_EQ(Browser().Post("/api/v1/login", R"({"token":"secret-r"})", type)->status, 200)
+        << type;
+  }
 }
 
 TEST_F(HttpLimitsTest, TheBodyOfARefusedRequestIsNoRequest) {

@@ -7,6 +7,7 @@
 #include "server/access/token_book.h"
 #include "server/http/request_guard.h"
 #include "tests/server/server_fixture.h"
+#include "tests/support/journey_file.h"
 #include "tests/support/status_matchers.h"
 
 namespace homing::server {
@@ -72,6 +73,19 @@ TEST_F(HttpTest, TheApiIsThatOfGrpc) {
                       R"({"name":"robots/r/journeys/none"})", "application/json")
                 ->status,
             404);
+}
+
+// As JSON, each browser would need several times as much.
+TEST_F(HttpTest, AVeryLargeAnswerIsRefused) {
+  StartServer();
+  ASSERT_THAT(Import("robots/r/journeys/large", test::JourneyFile(100'000, 2), 1 << 20),
+              IsGrpcOk());
+  const httplib::Headers headers = {{"X-CSRF-Token", Session({})["csrf"].get<std::string>()}};
+  const auto answer = Browser().Post(
+      "/api/v1/JourneyService/ListLandmarks", headers,
+      R"({"parent":"robots/r/journeys/large","includeFingerprints":true})", "application/json");
+  EXPECT_EQ(answer->status, 429);
+  EXPECT_THAT(answer->body, HasSubstr("pageSize"));
 }
 
 TEST_F(HttpTest, ATokenOpensASessionWithItsRole) {

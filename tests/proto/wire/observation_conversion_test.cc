@@ -75,6 +75,8 @@ TEST(ObservationConversion, AFrameViewsTheBytesOfTheMessage) {
 
 TEST(ObservationConversion, RefusesAnObservationThatIsNone) {
   ExpectRefused([](v1::Observation& m) { m.set_sequence(-1); }, "observation.sequence: -1");
+  ExpectRefused([](v1::Observation& m) { m.set_sequence(INT64_MAX); }, "must be at most");
+  ExpectRefused([](v1::Observation& m) { m.set_frame(INT64_MAX); }, "observation.frame");
   ExpectRefused([](v1::Observation& m) { m.clear_left(); }, "observation.left: must be set unless");
   ExpectRefused([](v1::Observation& m) { m.mutable_left()->clear_flow_vectors(); },
                 "observation.left");

@@ -168,6 +168,9 @@ TEST(JourneyArchive, RefusesSequencesThatDoNotGrow) {
   ExpectRefused(Forge([](v1::JourneyMap& m) { m.set_sequences(4, 14); }),
                 "sequence of step 4: 14 must be at least 15");
   ExpectRefused(Forge([](v1::JourneyMap& m) { m.set_sequences(0, -2); }), "sequence of step 0");
+  // The number after the last one would overflow.
+  ExpectRefused(Forge([](v1::JourneyMap& m) { m.set_sequences(19, INT64_MAX); }),
+                "sequence of step 19: 9223372036854775807 must be at most");
 }
 
 TEST(JourneyArchive, RefusesSizesThatDoNotAgree) {

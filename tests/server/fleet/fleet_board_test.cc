@@ -1,0 +1,56 @@
+#include "server/fleet/fleet_board.h"
+
+#include <gtest/gtest.h>
+
+#include "absl/strings/str_cat.h"
+
+namespace homing::server {
+namespace {
+
+// Counts the blocks of memory in use: a weak_ptr keeps the block of an object that is destroyed.
+template <typename T>
+struct CountingAllocator {
+  using value_type = T;
+  explicit CountingAllocator(int* in_use) : blocks(in_use) {}
+  template <typename Other>
+  explicit CountingAllocator(const CountingAllocator<Other>& other) : blocks(other.blocks) {}
+  T* allocate(std::size_t count) {
+    ++*blocks;
+    return std::allocator<T>().allocate(count);
+  }
+  void deallocate(T* block, std::size_t count) {
+    --*blocks;
+    std::allocator<T>().deallocate(block, count);
+  }
+  bool operator==(const CountingAllocator&) const = default;
+  int* blocks;
+};
+
+class CountedWatcher : public FleetWatcher {
+ public:
+  void Wake() override { ++woken; }
+  int woken = 0;
+};
+
+TEST(FleetBoardTest, WatchersOfRobotsThatDoNothingLeaveNoMemory) {
+  FleetBoard board([] { return 0; });
+  int blocks = 0;
+  const auto watch = [&](const std::string& robot) {
+    const auto watcher =
+        std::allocate_shared<CountedWatcher>(CountingAllocator<CountedWatcher>(&blocks));
+    board.Watch(robot, watcher);
+    return watcher;
+  };
+  const auto stays = watch("robots/stays");
+  for (int i = 0; i < 10'000; ++i) {
+    watch("robots/one");
+    watch(absl::StrCat("robots/", i));
+    watch("");
+    ASSERT_LT(blocks, 200) << i;
+  }
+  const auto presence = board.Enter("robots/stays", v1::ACTIVITY_RECORDING, "");
+  EXPECT_EQ(stays->woken, 1);
+}
+
+}  // namespace
+}  // namespace homing::server
