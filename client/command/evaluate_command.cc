@@ -150,8 +150,8 @@ absl::Status RunEvaluate(const Session& session, const EvaluateFlags& flags) {
   HOMING_RETURN_IF_ERROR(PrintVerdict(session, flags, places, verdict));
   if (!flags.out.empty()) HOMING_RETURN_IF_ERROR(DrawEvaluation(flags, places));
   if (verdict.share() >= flags.require) return absl::OkStatus();
-  return absl::FailedPreconditionError(
-      absl::StrFormat("share %.3f is below the required %.3f", verdict.share(), flags.require));
+  return absl::FailedPreconditionError(absl::StrFormat(
+      "the fraction %.3f is below the required %.3f", verdict.share(), flags.require));
 }
 
 }  // namespace
@@ -170,10 +170,11 @@ void AddEvaluateCommand(CLI::App& app, Session& session) {
   home->needs(outbound);
   command.add_option("--after", flags->after_m, "Metres of the way home that do not count")
       ->capture_default_str();
-  command.add_option("--within", flags->within_m, "Largest error that is right, metres")
+  command.add_option("--within", flags->within_m, "Largest error of a right answer, metres")
       ->capture_default_str();
   command
-      .add_option("--require", flags->require, "Least share that is right; below it: exit code 1")
+      .add_option("--require", flags->require,
+                  "Least fraction of right answers; below it the exit code is 1")
       ->check(RealRange(0.0, 1.0))
       ->needs(home);
   command.add_option("--rows", flags->rows, "Rows of the table, 0 for all")

@@ -1,5 +1,5 @@
 // Parts that the pages share.
-import { useEffect, useRef } from 'preact/hooks';
+import { useEffect, useRef, useState } from 'preact/hooks';
 import uPlot from 'uplot';
 
 export const short = (name = '') => name.replace(/^robots\//, '').replace('/journeys/', ' / ');
@@ -19,6 +19,14 @@ export function ago(time) {
   if (s < 3600) return `${Math.floor(s / 60)} min ago`;
   if (s < 86400) return `${Math.floor(s / 3600)} h ago`;
   return `${Math.floor(s / 86400)} d ago`;
+}
+// Draws the component again every five seconds, so that its times stay true while nothing happens.
+export function useClock() {
+  const [, tick] = useState(0);
+  useEffect(() => {
+    const timer = setInterval(() => tick((n) => n + 1), 5000);
+    return () => clearInterval(timer);
+  }, []);
 }
 
 // LOST and the like: one word and a shape, so that colour is not needed.
@@ -62,7 +70,7 @@ export const themed = () => document.documentElement.dataset.theme + matchMedia(
 const atLeast30s = (_, min, max) => (min == null ? [min, max] : [Math.min(min, max - 30), max]);
 const clock = (_, times) => times.map((t) => (t % 1 ? '' : new Date(t * 1000).toLocaleTimeString('en-GB')));
 // A uPlot chart; `series` is [{label, colour, values, bars, dash, scale}], all over `x`.
-export function Chart({ title, x, series, xLabel, xRange, yLabel, range, height = 200, time = false, describe }) {
+export function Chart({ title, x, series, xLabel, xRange, yLabel, range, height = 200, time = false, whole = false, describe }) {
   const box = useRef();
   const plot = useRef();
   const made = useRef('');
@@ -82,10 +90,10 @@ export function Chart({ title, x, series, xLabel, xRange, yLabel, range, height 
     plot.current = new uPlot({
       width: box.current.clientWidth || 300, height,
       scales: { x: { time, range: time ? atLeast30s : xRange }, y: { range: range ?? undefined } },
-      axes: [{ ...axis(xLabel), size: 30, ...(time && { values: clock, space: 70 }) }, axis(yLabel)],
+      axes: [{ ...axis(xLabel), size: 30, ...(time && { values: clock, space: 70 }) }, { ...axis(yLabel), ...(whole && { incrs: [1, 2, 5, 10, 20, 50, 100] }) }],
       legend: { show: series.length > 1 }, cursor: { y: false },
-      series: [{ label: xLabel, ...(time && { value: (_, t) => (t == null ? '–' : new Date(t * 1000).toLocaleTimeString('en-GB')) }) }, ...series.map((s) => ({
-        label: s.label, stroke: colour(s.colour), width: s.bars ? 0 : 2, dash: s.dash, points: { show: false },
+      series: [{ label: xLabel, value: (_, v) => (v == null ? '–' : time ? new Date(v * 1000).toLocaleTimeString('en-GB') : +v.toPrecision(6)) }, ...series.map((s) => ({
+        label: s.label, stroke: colour(s.colour), width: s.bars ? 0 : 2, dash: s.dash, points: { show: false }, pxAlign: s.bars ? 1 : 0,
         fill: s.bars ? colour(s.colour) : undefined, paths: s.bars ? uPlot.paths.bars({ size: [0.9, 60] }) : undefined,
         value: (_, v) => (v == null ? '–' : +v.toPrecision(3)),
       }))],
