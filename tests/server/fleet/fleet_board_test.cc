@@ -11,7 +11,7 @@ namespace {
 template <typename T>
 struct CountingAllocator {
   using value_type = T;
-  explicit CountingAllocator(int* in_use) : blocks(in_use) {}
+  explicit CountingAllocator(int* counter) : blocks(counter) {}
   template <typename Other>
   explicit CountingAllocator(const CountingAllocator<Other>& other) : blocks(other.blocks) {}
   T* allocate(std::size_t count) {
