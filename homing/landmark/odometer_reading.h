@@ -1,6 +1,6 @@
 // How far one camera moved between two frames, as its flow shows it. At the same place the flow is
 // in proportion to the robot's motion, so that the ratio of two readings is a number of steps
-// (METHOD 7: the flow as an odometer).
+// (docs/algorithm.md, The flow as an odometer).
 #ifndef HOMING_LANDMARK_ODOMETER_READING_H_
 #define HOMING_LANDMARK_ODOMETER_READING_H_
 

@@ -1,4 +1,4 @@
-// The direction in which the robot drives along the route, by the sign of the flow (METHOD 7).
+// The direction in which the robot drives along the route, by the sign of the flow.
 #ifndef HOMING_LOCALIZATION_DIRECTION_EVIDENCE_H_
 #define HOMING_LOCALIZATION_DIRECTION_EVIDENCE_H_
 

@@ -42,10 +42,10 @@ struct Localization {
   std::optional<std::int32_t> landmark;
   std::optional<double> similarity;
   std::vector<Match> matches;
-  // Change of the heading relative to the outbound path since the last step, to the robot's left
-  // (METHOD 7): rad if a focal length is known, else pixels. It includes corrections of earlier
-  // errors, so that the sum is the heading relative to the path. Absent without two cameras that
-  // look across the direction of travel.
+  // Change of the heading relative to the outbound path since the last step, to the robot's left:
+  // rad if a focal length is known, else pixels. It includes corrections of earlier errors, so that
+  // the sum is the heading relative to the path. Absent without two cameras that look across the
+  // direction of travel.
   std::optional<double> turn;
 };
 

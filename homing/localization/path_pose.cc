@@ -9,9 +9,9 @@
 namespace homing {
 namespace {
 
-// Lengths are in units of the distance of the seen objects, as METHOD 7 has them.
+// Lengths are in units of the distance of the seen objects.
 //
-// Deviations before anything was seen: of the offset, and of the heading, rad.
+// Standard deviations before the first observation: of the offset, and of the heading, rad.
 constexpr double kFirstOffset = 0.15;
 constexpr double kFirstHeading = 0.15;
 // Growth of the deviations for a unit driven: of the heading, rad, and of the offset. A turn adds a
@@ -51,8 +51,8 @@ double PathPoseFilter::FocalOf(std::size_t camera, int width) const {
   return intrinsics ? intrinsics->focal_x : UsualFocal(width);
 }
 
-// METHOD 7: the motion along the path moves the images of both sides against each other, a turn
-// moves them alike, and so does an offset: by the distance driven times the offset.
+// Motion along the path moves the images of both sides in opposite directions. A turn moves them in
+// the same direction, and so does an offset: by the distance driven times the offset.
 bool PathPoseFilter::Predict(const JourneyMap& map, std::int64_t step, const ObservedFlow& flow) {
   turned_ = 0;
   driven_ = 0;

@@ -1,5 +1,5 @@
 // The odometer's evidence of the robot's speed: the ratio of the present flow to the flow stored at
-// a step is the number of steps that the robot advances, if it is at that step (METHOD 7).
+// a step is the number of steps that the robot advances, if it is at that step.
 #ifndef HOMING_LOCALIZATION_SPEED_EVIDENCE_H_
 #define HOMING_LOCALIZATION_SPEED_EVIDENCE_H_
 

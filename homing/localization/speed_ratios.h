@@ -1,4 +1,4 @@
-// The odometer's ratio at each step: the present flow over the stored flow (METHOD 7).
+// The odometer's ratio at each step: the present flow over the stored flow.
 #ifndef HOMING_LOCALIZATION_SPEED_RATIOS_H_
 #define HOMING_LOCALIZATION_SPEED_RATIOS_H_
 

@@ -15,8 +15,7 @@
 
 namespace homing {
 
-// The direction in which a camera looks, read from the signs of its flow over the journey (METHOD
-// 7).
+// The direction in which a camera looks, read from the signs of its flow over the journey.
 enum class CameraDirection { kUnknown = 0, kAcross = 1, kAlong = 2, kMixed = 3 };
 
 // The odometer of one camera: log2 of the flow that measures motion. Which flow this is depends on
