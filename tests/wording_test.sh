@@ -56,5 +56,13 @@ long=$(awk 'FNR == 1 { code = 0 } /^```/ { code = !code }
   ./*.md docs/*.md docs/decisions/*.md)
 [ -z "$long" ] || { echo "$long"; failed=1; }
 
+# Lists that begin right after a line of text: the site shows them as part of that line.
+lists=$(awk 'FNR == 1 { code = 0; before = "" } /^```/ { code = !code }
+  !code && /^(- |1\. )/ && before != "" && before !~ /^( |- |[0-9]+\. )/ {
+    print FILENAME ":" FNR ": a list needs an empty line before it"
+  }
+  { before = $0 }' ./*.md docs/*.md docs/decisions/*.md)
+[ -z "$lists" ] || { echo "$lists"; failed=1; }
+
 [ "$failed" -ne 0 ] || echo "wording: in order"
 exit "$failed"
