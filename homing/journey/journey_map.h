@@ -68,7 +68,7 @@ absl::Status CheckStepSequence(const JourneyStep& step, std::int64_t least);
 // damaged map claims.
 inline constexpr std::int64_t kMostSteps = 20'000'000;
 
-// Not thread-safe: its owner must lock it. Takes 16 bytes a fingerprint, 16 a step, 166 a profile.
+// Not thread-safe: its owner must lock it. Takes 16 bytes a fingerprint, 16 a step, 168 a profile.
 class JourneyMap {
  public:
   JourneyMap() = default;

@@ -11,7 +11,7 @@
 
 namespace homing {
 
-// Immutable value of six bytes, rounded once at creation: memory, disk and wire hold the same.
+// Immutable value of eight bytes, rounded once at creation: memory, disk and wire hold the same.
 // Lengths are pixels of the source image.
 struct OdometerReading {
   // Units of the signed values: 1/32 px.

@@ -5,13 +5,14 @@
 
 #include "absl/strings/str_cat.h"
 #include "homing/base/status_macros.h"
+#include "homing/landmark/profile_code.h"
 #include "server/base/error_reason.h"
 
 namespace homing::server {
 namespace {
 
 constexpr std::int64_t kFingerprintBytes = 16;
-constexpr std::int64_t kStepBytes = 216;
+constexpr auto kStepBytes = static_cast<std::int64_t>(2 * kProfileBytes);
 constexpr std::int64_t kSecondNs = 1'000'000'000;
 // Space appears only after a deletion, so frequent retries do not help.
 constexpr char kRetryMs[] = "10000";

@@ -16,8 +16,7 @@ struct Limits {
   int max_robot_rate = 0;
   // Journeys stored for one robot.
   std::int64_t max_robot_journeys = 0;
-  // Bytes stored for one robot: 16 a fingerprint and 216 a step (two flow profiles of the largest
-  // size).
+  // Bytes stored for one robot: 16 a fingerprint and 256 a step (two flow profiles).
   std::int64_t max_robot_bytes = 0;
   // Largest size of the database, bytes.
   std::int64_t max_database = 0;

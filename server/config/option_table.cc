@@ -60,9 +60,10 @@ const std::array kOptions = {
                  "Stored bytes of one robot", 0, kMaxBytes, "bytes", false, true},
     ServerOption{"max-database", HOMING_OPTION(limits.max_database), "Size of the database", 0,
                  kMaxBytes, "bytes", false, true},
-    ServerOption{"memory-quota", HOMING_OPTION(limits.memory_quota),
-                 "Memory of gRPC for messages in transit", std::int64_t{16} << 20,
-                 std::int64_t{1} << 40, "bytes", true, true},
+    ServerOption{
+        "memory-quota", HOMING_OPTION(limits.memory_quota),
+        "Memory of messages in transit; as much again each for imports, exports and beliefs",
+        std::int64_t{16} << 20, std::int64_t{1} << 40, "bytes", true, true},
     ServerOption{"idle-stream-s", HOMING_OPTION(limits.idle_stream_s),
                  "A stream without traffic for this long is closed, s", 0, 86'400, "s", false,
                  true},

@@ -81,7 +81,7 @@ TEST_F(JourneyQuotaTest, BytesAreThoseOfFingerprintsAndProfiles) {
   Make("out", 1, false);
   RecordFlow(0, 10, Name("out"));
   const std::int64_t bytes = QuotaBytes(catalog_->Get(Name("out")).value());
-  EXPECT_GE(bytes, 10 * 216);
+  EXPECT_GE(bytes, 10 * 2 * 128);
   limits_.max_robot_bytes = bytes + 1;
   EXPECT_THAT(JourneyQuota(catalog_.get(), limits_).CheckGrowth(Name("out")), IsOk());
   limits_.max_robot_bytes = bytes;
