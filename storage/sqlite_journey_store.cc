@@ -261,10 +261,9 @@ absl::Status SqliteJourneyStore::ImportJourney(const JourneyRecord& record, cons
 
 absl::StatusOr<std::unique_ptr<std::istream>> SqliteJourneyStore::BackUp() {
   if (!queries_ || read_only()) {
-    return absl::FailedPreconditionError(
-        absl::StrCat("store: '", path_, "' is ",
-                     read_only() ? "read-only: its file itself may be copied"
-                                 : "in memory and cannot be copied"));
+    return absl::FailedPreconditionError(absl::StrCat(
+        "store: '", path_, "' is ",
+        read_only() ? "read-only: copy the file itself" : "in memory and cannot be copied"));
   }
   if (backing_up_.exchange(true)) {
     return absl::AbortedError("store: another copy is being made; try again when it is done");

@@ -71,7 +71,7 @@ struct GrayImage {
 // Units: points from the top left; y down. Not thread-safe.
 class Canvas {
  public:
-  // White. INVALID_ARGUMENT: an ending other than .svg or .png.
+  // A white canvas. INVALID_ARGUMENT: an ending other than .svg or .png.
   static absl::StatusOr<Canvas> Create(const std::string& path, double width, double height);
   Canvas(Canvas&&) noexcept;
   Canvas& operator=(Canvas&&) noexcept;

@@ -1,5 +1,5 @@
-// Draws a robot's way home beside the outbound one: from above, and as offset and heading over the
-// way, each also as the answers reported it.
+// Draws a robot's way home beside the outbound one: from above, and as curves of offset and heading
+// over the distance. Each curve shows the true values and those of the answers.
 #ifndef CLIENT_PICTURE_DRIVE_PICTURE_H_
 #define CLIENT_PICTURE_DRIVE_PICTURE_H_
 

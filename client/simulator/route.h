@@ -15,8 +15,8 @@ struct RouteBend {
   double bend_rad = 0;
   double period_m = 100;
   double phase_rad = 0;
-  // Of two corners, one turns the line by this to the left and the other one back, in kCornerM
-  // each, rad.
+  // Angle by which the first corner turns the line to the left and the second one back, rad. Each
+  // corner is kCornerM long.
   double corner_rad = 0;
   std::array<double, 2> corners_m{};
 

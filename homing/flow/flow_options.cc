@@ -20,9 +20,9 @@ absl::Status CheckOddRange(const std::string& field, int value, int low, int hig
   return MustBe(field, value, absl::StrCat("odd and in [", low, ", ", high, "] px"));
 }
 
-// One corner a cell, each tracked by its window: more of these than kMostWindowPixels allows would
-// be left out of an image as high as wide. Eight times as many are accepted, since few cells have
-// one.
+// Each cell may have one corner, which is tracked by a window. Of a square image with a corner in
+// each cell, at most kMostWindowPixels of window pixels are tracked. Settings with up to eight
+// times as many are accepted, since few cells have a corner.
 absl::Status CheckWork(const FlowOptions& options) {
   constexpr double kMost = 8.0 * kMostWindowPixels;
   const int width = options.working_width_px == 0 ? kMaxWorkingWidth : options.working_width_px;

@@ -5,12 +5,12 @@
 namespace homing {
 namespace {
 
-// A gap leaves less than this part of the vectors, mean of the sides: of those that move as before,
-// and of others.
+// After a gap less than this fraction of the usual vectors is left, as a mean of both sides:
+// kLeastCoherent if both sides move in the same directions as before, else kLeastPart.
 constexpr double kLeastCoherent = 0.35;
 constexpr double kLeastPart = 0.5;
-// Weight of an observation in the usual number of vectors: also of one after a gap, since the
-// scene may have become poorer.
+// Weight of an observation in the usual number of vectors. An observation after a gap counts too,
+// since the scene itself may have fewer vectors from now on.
 constexpr double kLastShare = 0.3;
 constexpr double kGapShare = 0.1;
 

@@ -14,9 +14,10 @@ namespace {
 
 // Less on the route is nothing.
 constexpr double kNoMass = 1e-12;
-// Log odds an observation of full weight: for each unit of shared change, which is bounded, and of
-// the fit where the robot was expected, as a part of the most evidence there is; at most one unit.
-// A place that has changed fits badly too: a bad fit says less than a good one.
+// An observation of full weight changes the log odds by kMembershipGain times the sum of two terms.
+// The shared change in units of kSharedUnit, bounded by kMostShared. And the fit to the expected
+// place, as a fraction of the greatest possible evidence, above kUsualFit in units of kFitUnit. A
+// place that has changed fits badly too, so a bad fit is bounded by kLeastFit, a good one by 1.
 constexpr double kMembershipGain = 0.5;
 constexpr double kSharedUnit = 0.1;
 constexpr double kMostShared = 2;

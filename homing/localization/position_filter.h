@@ -144,7 +144,7 @@ class PositionFilter {
   FlowGap gap_;
   // The flow of this observation does not show how far the robot moved.
   bool after_gap_ = false;
-  // Steps from the first observation on, and those of the last one, as DistanceMoved tells them.
+  // Steps from the first observation on, and those of the last one, as DistanceMoved reports them.
   double moved_ = 0;
   double last_moved_ = 1;
   // Beliefs by journey, if the robot is on a route. Together their mass is 1.

@@ -6,8 +6,9 @@
 namespace homing {
 namespace {
 
-// Off the route for long, the robot is believed to be back after some observations that fit. On it
-// for long, a stretch that has changed does not take it off.
+// The bounds limit the effect of a long past. A robot that was off the route for long is believed
+// to be back after some observations that fit; one that was on it for long stays on it over a
+// stretch that has changed.
 constexpr double kLeastLogOdds = -3;
 constexpr double kMostLogOdds = 8;
 // It may come back.

@@ -40,7 +40,7 @@ class WriterLease {
   void EndStream(std::uint64_t claim) { open_ = open_ && claim != claim_; }
   // ABORTED: a stream of the current lease is open.
   absl::Status CheckNoStream(TimePoint now) const;
-  // Ends the claim and the lease; returns the evict of that claim.
+  // Ends the claim and the lease; returns the callback that evicts the claim's stream.
   Evict Release();
 
  private:

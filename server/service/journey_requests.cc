@@ -175,7 +175,8 @@ absl::Status DescribeAliasing(const v1::AnalyzeAliasingRequest& request, Journey
   }
   if (profiles[0].empty() && profiles[1].empty()) {
     return absl::FailedPreconditionError(absl::StrCat(
-        name.ToString(), " has no flow profiles; record it anew to see how well it tells places"));
+        name.ToString(),
+        " has no flow profiles; record it again to learn how well it distinguishes places"));
   }
   *response =
       EncodeAliasing(AnalyzeAliasing(std::move(profiles), options.tolerance_steps, cancellation));

@@ -38,8 +38,8 @@ struct RecorderOptions {
   std::string buffer_file = "";
   // Most bytes of observations that wait.
   std::int64_t buffer_bytes = std::int64_t{256} << 20;
-  // So many of them wait in memory; the disk is written only when there are more, and when the
-  // recorder is destroyed. 0: each one is written to disk at once.
+  // Most observations that wait in memory. The disk is written only when more of them wait, and
+  // when the recorder is destroyed. 0: each one is written to disk at once.
   int memory_observations = 32;
   // Called in order, on another thread.
   std::function<void(const Recorded&)> on_recorded = {};

@@ -16,7 +16,7 @@ struct Server {
   std::string tls_key = "";
   // File with a bearer token, instead of a certificate.
   std::string token_file = "";
-  // Send the token in plain text off this machine.
+  // Allow the token to be sent to another machine without TLS.
   bool insecure = false;
 };
 
