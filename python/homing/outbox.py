@@ -9,8 +9,8 @@ from .v1 import types_pb2
 
 
 class Outbox:
-    """With `live`, observations after a restart are new; else the source begins with number 0 again,
-    and the observations that the server has are left out. Not thread-safe."""
+    """With `live`, observations after a restart are new; else the source begins with number 0
+    again, and the observations that the server has are left out. Not thread-safe."""
 
     def __init__(self, live: bool = False):
         self._live = live
