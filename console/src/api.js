@@ -19,10 +19,29 @@ export const getSession = async () => (session = await fetch('/api/v1/session').
 export const logIn = (token) =>
   fetch('/api/v1/login', { method: 'POST', body: JSON.stringify({ token }) }).then(read);
 export const logOut = () => fetch('/api/v1/logout', { method: 'POST' }).then(read);
-export const call = (method, request = {}) =>
+const post = (method, request) =>
   fetch('/api/v1/' + method, {
     method: 'POST', headers: { 'X-CSRF-Token': session?.csrf ?? '' }, body: JSON.stringify(request),
   }).then(read);
+// A server that was restarted has new tokens, and knows no login of before: calls are tried again with the new token.
+export async function call(method, request = {}) {
+  const used = session?.csrf;
+  try {
+    return await post(method, request);
+  } catch (error) {
+    if (![401, 403].includes(error.status)) throw error;
+    await renew();
+    if (session?.csrf === used) throw error;
+    return post(method, request);
+  }
+}
+// Calls back with true when the server asks for a login, and with false when another tab has logged in.
+let onLogin = () => {};
+let away = false;
+export const whenLogin = (hear) => { onLogin = hear; };
+const renew = () => getSession().catch((error) => {
+  if (error.status === 401) { away = true; onLogin(true); }
+});
 
 // All pages of a list.
 export async function callAll(method, field, request = {}, most = 20000) {
@@ -63,6 +82,8 @@ function announce() {
 }
 function receive(message) {
   if (message.kind === 'link') live.up = message.up;
+  if (message.kind === 'link' && message.up && away) { away = false; onLogin(false); }
+  if (message.kind === 'refused') renew();
   if (message.kind === 'fleet') {
     if (message.whole && !message.cached) live.robots.clear();
     for (const robot of message.robots) live.robots.set(robot.name, robot);
@@ -73,7 +94,10 @@ function receive(message) {
   announce();
 }
 const robotListeners = new Set();
+let started = false;
 export function startLive() {
+  if (started) return;
+  started = true;
   if (window.SharedWorker) {
     const { port } = new SharedWorker('/worker.js');
     port.onmessage = ({ data }) => receive(data);

@@ -23,6 +23,7 @@ export function createFeed(deliver) {
       deliver({ kind: 'link', up: false });
       // A refusal closes it for good: try again, gently.
       if (source.readyState === EventSource.CLOSED) {
+        deliver({ kind: 'refused' });
         clearTimeout(timer);
         timer = setTimeout(open, 1500);
       }

@@ -1,6 +1,6 @@
 import { useState } from 'preact/hooks';
 import { useLive } from './api.js';
-import { ago, Badge, Empty, link, Loading, number, percent, Progress, short, stateOf, Tile } from './parts.jsx';
+import { ago, Badge, Empty, link, Loading, number, percent, Progress, short, stateOf, Tile, useClock } from './parts.jsx';
 
 const byUrgency = (a, b) => stateOf(a).rank - stateOf(b).rank ||
   (a.lostSince ?? '').localeCompare(b.lostSince ?? '') || a.name.localeCompare(b.name);
@@ -25,6 +25,7 @@ function Row({ robot }) {
 
 export function Fleet() {
   const { robots, up, heard } = useLive();
+  useClock();
   const [filter, setFilter] = useState('');
   if (!heard) return <Loading what="The fleet" />;
   const all = [...robots.values()];

@@ -2,7 +2,7 @@ import 'uplot/dist/uPlot.min.css';
 import './app.css';
 import { render } from 'preact';
 import { useEffect, useRef, useState } from 'preact/hooks';
-import { getSession, logIn, logOut, startLive, useLive } from './api.js';
+import { getSession, logIn, logOut, startLive, useLive, whenLogin } from './api.js';
 import { Fleet } from './fleet.jsx';
 import { Journey, Journeys } from './journeys.jsx';
 import { Match, Models } from './models.jsx';
@@ -91,7 +91,7 @@ function App() {
   const [session, setSession] = useState(null);
   const [refused, refuse] = useState(null);
   const enter = () => getSession().then((s) => { startLive(); setSession(s); refuse(null); }, (e) => refuse(e));
-  useEffect(() => { document.documentElement.dataset.theme = localStorage.theme ?? ''; enter(); }, []);
+  useEffect(() => { document.documentElement.dataset.theme = localStorage.theme ?? ''; whenLogin((needed) => (needed ? refuse({ status: 401 }) : enter())); enter(); }, []);
   if (refused?.status === 401) {
     const used = route().query.get('link') === 'used';
     return <Login done={enter} reason={used ? 'This link was used, or is older than 15 minutes.' : ''} />;

@@ -1,5 +1,5 @@
 // Parts that the pages share.
-import { useEffect, useRef } from 'preact/hooks';
+import { useEffect, useRef, useState } from 'preact/hooks';
 import uPlot from 'uplot';
 
 export const short = (name = '') => name.replace(/^robots\//, '').replace('/journeys/', ' / ');
@@ -19,6 +19,14 @@ export function ago(time) {
   if (s < 3600) return `${Math.floor(s / 60)} min ago`;
   if (s < 86400) return `${Math.floor(s / 3600)} h ago`;
   return `${Math.floor(s / 86400)} d ago`;
+}
+// Draws the component again every five seconds, so that its times stay true while nothing happens.
+export function useClock() {
+  const [, tick] = useState(0);
+  useEffect(() => {
+    const timer = setInterval(() => tick((n) => n + 1), 5000);
+    return () => clearInterval(timer);
+  }, []);
 }
 
 // LOST and the like: one word and a shape, so that colour is not needed.

@@ -1,6 +1,6 @@
 import { useRef, useState } from 'preact/hooks';
 import { useRobot } from './api.js';
-import { ago, Badge, Chart, Empty, Facts, link, Loading, number, percent, Progress, short, stateOf } from './parts.jsx';
+import { ago, Badge, Chart, Empty, Facts, link, Loading, number, percent, Progress, short, stateOf, useClock } from './parts.jsx';
 
 const kept = 300;
 const threshold = 0.2;
@@ -66,6 +66,7 @@ function Live({ robot, answer, belief, history }) {
 
 export function Robot({ name }) {
   const [update, setUpdate] = useState(null);
+  useClock();
   const history = useRef([]);
   useRobot(name, (next) => {
     if (next.answer && next.answer.sequence !== history.current.at(-1)?.sequence) {

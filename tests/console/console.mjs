@@ -129,6 +129,8 @@ try {
   await start();
   const back = await until(() => page.waitForSelector('.link.good', { timeout: 100 }).then(() => true));
   check('a restart of the server is survived within 2 s', back < 2000, Math.round(back) + ' ms');
+  await page.click('nav a[href="#/journeys"]');
+  check('so are calls of the page', await page.waitForSelector('tbody tr', { timeout: 5000 }).then(() => true, () => false));
 
   const open = await ask('/api/v1/session');
   const csrf = JSON.parse(open.text).csrf;
@@ -170,6 +172,12 @@ try {
     return [s.role, await post('JourneyService/CreateJourney', { parent: 'robots/other', journeyId: 'j' }), await post('JourneyService/CreateJourney', { parent: 'robots/r1', journeyId: 'j' })];
   });
   check('the role is that of the token', roles.join() === 'robot,403,200', roles.join());
+  await stop('SIGKILL');
+  await start('--tokens', `${out}/tokens`);
+  check('a restarted server asks for the login', await page.waitForSelector('#token', { timeout: 5000 }).then(() => true, () => false));
+  await page.fill('#token', readFileSync(`${out}/r1.token`, 'utf8').trim());
+  await page.click('button.primary');
+  check('and is live after it', await page.waitForSelector('.link.good', { timeout: 5000 }).then(() => true, () => false));
   await page.click('text=Log out');
   check('log out', await page.waitForSelector('#token').then(() => true));
 } catch (error) {
