@@ -22,8 +22,8 @@ struct LocalizingOptions {
   // Most observations sent and not yet answered. [1, 10000].
   int window = 32;
   // Answered observations that are sent again after a broken link. The belief starts from the
-  // answer before them; they restore the motion and what is in view. A server that takes over many
-  // robots computes them all before it has a new answer. [1, 10000].
+  // answer before them; they restore the motion and the landmarks in view. A server that takes over
+  // many robots computes them all before it has a new answer. [1, 10000].
   int replay = 24;
 };
 

@@ -38,7 +38,7 @@ class SqliteJourneyStore final : public JourneyStore {
   absl::Status StartCheckpoints(int busy_timeout_ms);
   // REQUIRES: a file, and not read-only. Once.
   void KeepReserve(std::unique_ptr<SpaceReserve> reserve);
-  // Goes on with deletions that a server before this one did not end.
+  // Finishes the deletions that an earlier server did not finish.
   absl::Status FinishDeletions();
 
   absl::Status CreateJourney(const JourneyRecord& record) override;

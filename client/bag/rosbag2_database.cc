@@ -85,7 +85,7 @@ absl::Status Rosbag2Database::CheckPages() {
   const std::uint64_t whole = std::uint64_t{reader.Take<std::uint32_t>()} * page;
   if (page > 0 && (file.size() < whole || file.size() % page != 0)) {
     ReportDamage(absl::StrCat(path_, " ends too early: it has ", file.size(), " bytes of ", whole,
-                              "; what is missing is not read"));
+                              "; the missing part is not read"));
   }
   return absl::OkStatus();
 }

@@ -21,19 +21,20 @@ constexpr double kWatch = 0.25;
 constexpr double kLeastSpeedMps = 0.15;
 // Slows down towards home: m/s for each metre left.
 constexpr double kSpeedPerM = 0.5;
-// The last of the way, m, is driven as commanded: an answer is no better than its tolerance, and
-// the map ends. An answer then corrects a small part of the difference.
+// The last part of the way, m, is driven by the commands: an answer is no better than its
+// tolerance, and the map ends. An answer then corrects the distance only by a fraction of the
+// difference.
 constexpr double kCloseM = 1.5;
 constexpr double kCloseGain = 0.03;
-// An answer further than this from where the robot is expected, and further by a share of the way
-// driven unsure, is believed after so many metres. m.
+// An answer may place the robot more than kJumpM, plus kJumpPerM of the way driven unsure, from the
+// expected place. The pilot believes such a place after kJumpConfirmedM of driving. Metres.
 constexpr double kJumpM = 3;
 constexpr double kJumpPerM = 0.1;
 constexpr double kJumpConfirmedM = 4;
-// An answer is no better than its tolerance: its place is taken over so many metres, m.
+// An answer is no better than its tolerance: the pilot accepts its place over this distance, m.
 constexpr double kPlaceM = 2;
-// A search sweeps so far back, and twice as far ahead, then further and further, m. It swings the
-// heading by so much, rad, over so many metres.
+// A search first sweeps this far back and twice as far ahead, then further, m. It swings the
+// heading by kSweepHeading, rad, over kSweepPeriodM, m.
 constexpr double kSweepM = 1.5;
 constexpr double kMostSweepM = 6;
 constexpr double kSweepHeading = 0.2;

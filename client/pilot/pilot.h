@@ -139,8 +139,8 @@ class Pilot {
   double heard_s_ = -1;
   double last_drive_s_ = -1;
   bool is_sure_ = false;
-  // Answers that are sure of another place: how far ahead of the believed one it was at first, and
-  // what was left of the way then, m.
+  // While answers are sure of another place: how far ahead of the believed place it was in the
+  // first of them, and how much of the way was left then, m.
   std::optional<double> elsewhere_ahead_m_;
   double elsewhere_from_m_ = 0;
   // Driven since the pilot was last sure, m.

@@ -84,7 +84,7 @@ export function Robot({ name }) {
     <>
       <p class="lead"><Badge state={stateOf(robot)} /> last seen {ago(robot.lastSeen)} · {number(robot.journeyCount)} {robot.journeyCount === '1' ? 'journey' : 'journeys'}{' · '}
         {number(robot.observationCount)} observations since the server started</p>
-      {robot.lostSince && <p class="error" role="alert">Lost {ago(robot.lostSince)}: what it sees fits no place of its route.</p>}
+      {robot.lostSince && <p class="error" role="alert">Lost {ago(robot.lostSince)}: its view fits no place of its route.</p>}
       {robot.activity === 'ACTIVITY_RECORDING' && <p>It records <a href={link('journey', robot.journey)}>{short(robot.journey)}</a>: {number(robot.recordedSteps)} steps.</p>}
       {answer ? <Live robot={robot} answer={answer} belief={belief} history={history.current} /> : (
         <Empty title="No answer yet" command={`homing localize --journey ${name}/journeys/out --left SOURCE --right SOURCE`}>

@@ -43,15 +43,16 @@ std::optional<double> PathPoseFilter::StoredBend(const JourneyMap& map, std::int
   return *middle;
 }
 
-// Without the turn, each side's flow is the stored one, less what the path's own bend put into it,
-// times the steps advanced. Where something has gone, one side is wrong, and the other agrees with
-// what was before: the middle one of three counts. A bend is one that both sides agree on.
+// Without the turn, each side's flow is the stored flow, less the part of the path's own bend,
+// times the steps advanced. Where a landmark was removed, one side gives a wrong number of steps,
+// and the other one agrees with the number before: so the middle one of these three is taken. A
+// bend counts only if both sides agree on it.
 PathPoseFilter::Advance PathPoseFilter::AdvanceOf(const std::array<double, 2>& now,
                                                   const std::array<double, 2>& then, double turn,
                                                   std::optional<double> bend) {
   std::array<double, 2> moved{};
   for (const Side side : {Side::kLeft, Side::kRight}) {
-    // What is nearer moves faster.
+    // Nearer objects move faster.
     const double left = travel_ == Travel::kReturn ? -pose_.offset : pose_.offset;
     const double nearer = side == Side::kLeft ? left : -left;
     moved[static_cast<std::size_t>(side)] =

@@ -133,7 +133,7 @@ bool PathPoseFilter::TurnAlone(const ObservedFlow& flow) {
   return true;
 }
 
-// A turn to the left moves what is seen to higher x, in both cameras.
+// A turn to the left moves the image to higher x, in both cameras.
 FlowField PathPoseFilter::Turned(const FlowField& field, std::size_t camera, double heading) const {
   const auto focal = static_cast<float>(FocalOf(camera, field.width));
   const auto& intrinsics = cameras_[camera].intrinsics;

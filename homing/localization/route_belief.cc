@@ -137,8 +137,8 @@ void RouteBelief::MoveMixed(std::size_t lane, const Motion& motion, double resta
            static_cast<float>(restart * kPrior), moved);
 }
 
-// Speed by speed, both directions at once: only the speed before is needed as it was. Less memory
-// is gone through than with all lanes twice.
+// Speed by speed, both directions at once: only the previous speed must be kept unchanged. This
+// reads less memory than two passes over all lanes.
 void RouteBelief::Carry(const Motion& motion, double restart) {
   if (focus_size() == 0) {
     AddToEach(restart);

@@ -32,8 +32,8 @@ float FactorOfOne(const SeenLandmark& seen, std::span<const Fingerprint> stored,
              : std::max({first, table(seen, stored[1]), table(seen, Union(stored[0], stored[1]))});
 }
 
-// What one side's landmarks have as factors at one step, assigned one to one so that the product is
-// greatest; kNotCompared for one that is left over.
+// The factors of one side's landmarks at one step, assigned one to one so that the product is
+// greatest; kNotCompared for a landmark that is left over.
 std::array<float, 2> Assign(std::span<const Fingerprint> stored,
                             const std::vector<SeenLandmark>& seen, const FactorTable& table) {
   if (stored.empty() || seen.empty()) {

@@ -43,7 +43,7 @@ class LandmarkIndex {
   void EndLoading();
   // Searches no longer find the journey. Sweep frees its memory and its number.
   void Remove(int journey);
-  // Frees what was removed from the next `buckets` buckets. False: nothing is left to free.
+  // Frees the removed entries of the next `buckets` buckets. False: none is left.
   bool Sweep(std::uint32_t buckets);
 
   // As Matcher::Find over all covered journeys. Match::journey is the number here.

@@ -7,7 +7,8 @@
 namespace homing {
 
 std::size_t ProfileLikelihood::LikeliestOffset() const {
-  // A camera that turns does not change what it saw: its view is compared unturned.
+  // With one camera the seven views are headings, which do not change the scene: the view without a
+  // shift is compared.
   if (seeing_ == Seeing::kOneSide) return kNoOffset;
   // The belief may have moved to an offset that was not tried at this instant.
   std::size_t likeliest = kNoOffset;

@@ -21,8 +21,8 @@ struct CertificateOrder {
   std::vector<std::string> revoked;
   // How long the certificates of the server, robots and operators are valid. [1, 36500].
   int days = 365;
-  // How long the authority's own certificate and the revocation list are valid. The list is made
-  // anew by each run, and must last until the next one. [1, 36500].
+  // How long the authority's own certificate and the revocation list are valid. Each run
+  // makes the list again, so it must last until the next run. [1, 36500].
   int ca_days = 3650;
   // Make a new certificate for the authority's key. Certificates that it signed stay valid.
   bool renew_ca = false;

@@ -117,11 +117,11 @@ struct ServiceCore {
   WorkerPool long_work{1, kMaxLongWork};
   // Reads and makes journey files, one at a time: a file needs several times its size meanwhile.
   WorkerPool archives{1, kMaxArchives};
-  // What waits for the store and computes little, so that neither robots wait for a database that
-  // is away, nor this for frames. A robot that goes home reads only.
+  // For work that waits for the store and computes little: robots do not wait for a database that
+  // is away, and this work does not wait for frames. A robot that goes home reads only.
   WorkerPool store_writes{kStoreWriters};
   WorkerPool store_reads{kStoreReaders};
-  // What computes.
+  // For work that computes.
   WorkerPool pool;
 };
 

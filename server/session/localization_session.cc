@@ -17,7 +17,7 @@ namespace {
 // A belief holds a mass for each step, direction and speed, some sums, and the answer's masses.
 constexpr std::int64_t kBytesAStep = sizeof(float) * (2 * kSpeedCount + 6);
 
-// Of an offset relative to the distance of what is seen; real ones are below 1.
+// Greatest accepted offset relative to the distance of the seen objects; real ones are below 1.
 constexpr double kMostPathOffset = 1000;
 
 // Sets the size of one camera's image. Decodes the frame, since a compressed one may give no size.

@@ -95,7 +95,7 @@ absl::StatusOr<std::unique_ptr<PgConnection>> PgConnection::Open(
   }
   names.push_back(nullptr);
   values.push_back(nullptr);
-  // Blocks: only then does libpq limit the time of each host, and go on to the next one.
+  // A blocking call: only this one limits the time of each host, and then tries the next host.
   std::unique_ptr<PgConnection> connection(
       new PgConnection(PQconnectdbParams(names.data(), values.data(), /*expand_dbname=*/1)));
   PGconn* const opened = connection->connection_;

@@ -14,7 +14,7 @@ namespace {
 constexpr std::chrono::milliseconds kWriteTime{10'000};
 constexpr std::chrono::milliseconds kRetryPause{50};
 
-// The last try is often cut short by the deadline; the one before says what is wrong.
+// The deadline often cuts the last try short; then the error of the try before names the fault.
 absl::Status WithReason(const absl::Status& last, const absl::Status& before) {
   if (before.ok() || before.message() == last.message()) return last;
   return {last.code(), absl::StrCat(last.message(), "; before: ", before.message())};
