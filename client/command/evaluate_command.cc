@@ -170,10 +170,11 @@ void AddEvaluateCommand(CLI::App& app, Session& session) {
   home->needs(outbound);
   command.add_option("--after", flags->after_m, "Metres of the way home that do not count")
       ->capture_default_str();
-  command.add_option("--within", flags->within_m, "Largest error that is right, metres")
+  command.add_option("--within", flags->within_m, "Largest error of a right answer, metres")
       ->capture_default_str();
   command
-      .add_option("--require", flags->require, "Least share that is right; below it: exit code 1")
+      .add_option("--require", flags->require,
+                  "Least fraction of right answers; below it the exit code is 1")
       ->check(RealRange(0.0, 1.0))
       ->needs(home);
   command.add_option("--rows", flags->rows, "Rows of the table, 0 for all")

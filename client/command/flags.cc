@@ -137,7 +137,7 @@ void AddRobotFlags(CLI::App& command, RobotFlags& flags) {
       ->check(check_crop);
   command.add_option("--mask", flags.mask,
                      "Image of the size of the frames, before the crop; its white part is used: "
-                     "leave out what moves with the robot [all]");
+                     "leave out parts that move with the robot [all]");
   command.add_option("--right-mask", flags.right_mask, "The same of the right camera [--mask]");
   command.add_option("--send", flags.send, "Send the frames, or flow vectors computed here")
       ->check(CLI::IsMember({"frames", "flow"}))
