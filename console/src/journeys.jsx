@@ -36,7 +36,7 @@ export function Journeys() {
   );
 }
 
-// Both sides: each dot is a fingerprint, x its step, y where it stands in the image; a colour a landmark.
+// Both sides: each dot is a fingerprint, x its step, y its place along the image from the left; a colour a landmark.
 function Strip({ journey, landmarks, twins }) {
   const canvas = useRef();
   const steps = Math.max(2, Number(journey.stepCount ?? 0));
@@ -105,7 +105,7 @@ function Strip({ journey, landmarks, twins }) {
   };
   return (
     <figure class="chart">
-      <figcaption>Landmarks over the steps <span class="dim">(x: step from home; y: place in the image; size: vectors; ▲ aliased places)</span></figcaption>
+      <figcaption>Landmarks over the steps <span class="dim">(x: step from home; y: place along the image, its left on top; size: vectors; ▲ places that look alike)</span></figcaption>
       <div class="buttons"><button onClick={() => zoom(0.5)}>Zoom in</button><button onClick={() => zoom(2)}>Zoom out</button><button onClick={() => move(0, steps)}>All</button>
         <span class="dim" role="status">{hint || `steps ${Math.floor(view[0])} to ${Math.ceil(view[1])}; keys + − ← → Home End 0`}</span></div>
       <canvas class="strip" ref={canvas} tabindex="0" role="img" aria-label={`${landmarks.length} landmarks on ${steps} steps`} onKeyDown={keys}
@@ -158,7 +158,7 @@ export function Journey({ name, session }) {
         ['Fingerprints', number(journey.fingerprintCount)], ['Map', described ? bytes(Number(described.mapBytes ?? 0)) : undefined],
         ['Cameras look', directions(described)], ['Created', ago(journey.createTime)],
         ['Readers', (journey.readers ?? []).map((r) => (r === '*' ? 'all robots' : r)).join(', ') || 'the owner alone'],
-        ['Places known after', aliasing?.medianSteps ? `${aliasing.medianSteps} steps in half of the places` : undefined],
+        ['A place is known after', aliasing?.medianSteps ? `${aliasing.medianSteps} steps (median)` : undefined],
         ['Indistinct places', aliasing ? percent(aliasing.indistinctShare ?? 0, 1) : undefined]]} />
       {session.role !== 'robot' && session.role !== 'localise-only' && (
         <div class="buttons">

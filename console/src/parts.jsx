@@ -92,7 +92,7 @@ export function Chart({ title, x, series, xLabel, xRange, yLabel, range, height 
       scales: { x: { time, range: time ? atLeast30s : xRange }, y: { range: range ?? undefined } },
       axes: [{ ...axis(xLabel), size: 30, ...(time && { values: clock, space: 70 }) }, axis(yLabel)],
       legend: { show: series.length > 1 }, cursor: { y: false },
-      series: [{ label: xLabel, ...(time && { value: (_, t) => (t == null ? '–' : new Date(t * 1000).toLocaleTimeString('en-GB')) }) }, ...series.map((s) => ({
+      series: [{ label: xLabel, value: (_, v) => (v == null ? '–' : time ? new Date(v * 1000).toLocaleTimeString('en-GB') : +v.toPrecision(6)) }, ...series.map((s) => ({
         label: s.label, stroke: colour(s.colour), width: s.bars ? 0 : 2, dash: s.dash, points: { show: false },
         fill: s.bars ? colour(s.colour) : undefined, paths: s.bars ? uPlot.paths.bars({ size: [0.9, 60] }) : undefined,
         value: (_, v) => (v == null ? '–' : +v.toPrecision(3)),

@@ -35,8 +35,10 @@ export function Profiles({ route, steps }) {
       const g = c.getContext('2d');
       g.scale(scale, scale);
       g.font = '12px system-ui';
-      const lane = (h - 22) / sides.length, cell = lane / route.columns;
-      const px = (step) => (w * step) / Math.max(1, steps);
+      const gap = 6, lane = (h - 22) / sides.length;
+      // Whole pixels: cells that overlap would show as a grid of dark lines.
+      const px = (step) => Math.round((w * step) / Math.max(1, steps));
+      const py = (n, x) => Math.round(n * lane + (x * (lane - gap)) / route.columns);
       sides.forEach(([side, seen], n) => {
         const columns = seen.flow.length;
         const most = seen.counts.reduce((a, b) => Math.max(a, b), 1);
@@ -47,7 +49,7 @@ export function Profiles({ route, steps }) {
             for (let y = 0; y < route.rows; ++y) code = Math.max(code, seen.counts[(i * route.rows + y) * route.columns + x]);
             if (!code) continue;
             g.globalAlpha = code / most;
-            g.fillRect(px(i * route.each), n * lane + x * cell, px(route.each) + 0.5, cell + 0.5);
+            g.fillRect(px(i * route.each), py(n, x), px((i + 1) * route.each) - px(i * route.each), py(n, x + 1) - py(n, x));
           }
         }
         g.globalAlpha = 1;
@@ -67,7 +69,7 @@ export function Profiles({ route, steps }) {
   }, [route, steps, theme]);
   return (
     <figure class="chart">
-      <figcaption>Flow profiles along the route <span class="dim">(x: step from home; y: place in the image, its left on top; strong colour: many flow vectors)</span></figcaption>
+      <figcaption>Flow profiles along the route <span class="dim">(x: step from home; y: place along the image, its left on top; strong colour: many flow vectors)</span></figcaption>
       <canvas class="profiles" ref={canvas} role="img" aria-label={`Flow profiles of ${sides.length} cameras over ${steps} steps`} />
     </figure>
   );
