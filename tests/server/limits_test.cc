@@ -350,6 +350,11 @@ TEST_F(LimitsTest, MetricsAreServedOverHttpAndNothingElseIs) {
         "process_resident_memory_bytes", "process_open_fds"}) {
     EXPECT_THAT(answer, HasSubstr(line));
   }
+  for (const std::string limit :
+       {"PIXELS", "VECTORS", "STREAMS", "ROBOT_STREAMS", "RATE", "ROBOT_JOURNEYS", "ROBOT_BYTES",
+        "IMPORT_MEMORY", "EXPORT_MEMORY", "LOCALIZE_MEMORY", "MAP_CACHE", "IDLE"}) {
+    EXPECT_THAT(answer, HasSubstr("reason=\"" + limit + "\"} 0"));
+  }
   EXPECT_THAT(answer, Not(HasSubstr("robots/")));
   for (const char* path : {"/etc/passwd", "/../etc/passwd", "/metrics/../../etc/passwd"}) {
     EXPECT_THAT(HttpGet(server_->metrics_address(), path),
