@@ -151,7 +151,7 @@ absl::Status RunEvaluate(const Session& session, const EvaluateFlags& flags) {
   if (!flags.out.empty()) HOMING_RETURN_IF_ERROR(DrawEvaluation(flags, places));
   if (verdict.share() >= flags.require) return absl::OkStatus();
   return absl::FailedPreconditionError(
-      absl::StrFormat("share %.3f is below the required %.3f", verdict.share(), flags.require));
+      absl::StrFormat("the fraction %.3f is below the required %.3f", verdict.share(), flags.require));
 }
 
 }  // namespace
