@@ -152,8 +152,8 @@ absl::Status HomingServer::State::Listen(const ServerOptions& options) {
   const bool is_socket_file = options.listen.rfind("unix:", 0) == 0;
   if (server == nullptr || (port <= 0 && !is_socket_file)) {
     return absl::UnavailableError(absl::StrCat(
-        "listen: \"", options.listen,
-        "\" is in use or is not an address of this machine, or the TLS files are bad"));
+        "listen: \"", options.listen, "\" is in use or is not an address of this machine",
+        options.tls_cert.empty() ? "" : ", or the TLS files are bad"));
   }
   address = is_socket_file
                 ? options.listen
