@@ -64,7 +64,7 @@ function Strip({ journey, landmarks, twins }) {
       c.width = w * scale; c.height = h * scale;
       const g = c.getContext('2d');
       g.scale(scale, scale);
-      const lane = (h - 26) / 2;
+      const lane = (h - 30) / 2;
       const px = (step) => (w * (step - view[0])) / (view[1] - view[0]);
       g.font = '12px system-ui';
       g.strokeStyle = colour('line');
@@ -73,7 +73,8 @@ function Strip({ journey, landmarks, twins }) {
       const tick = [1, 2, 5, 10, 20, 50, 100, 200, 500, 1000, 2000, 5000, 10000, 50000].find((t) => size / t <= w / 70) ?? 100000;
       for (let s = Math.ceil(view[0] / tick) * tick; s <= view[1]; s += tick) {
         g.beginPath(); g.moveTo(px(s), 0); g.lineTo(px(s), 2 * lane); g.stroke();
-        g.fillText(s, Math.min(px(s) + 3, w - 34), h - 8);
+        const half = g.measureText(s).width / 2;
+        g.fillText(s, Math.min(Math.max(px(s), half), w - half) - half, h - 4);
       }
       g.beginPath(); g.moveTo(0, lane); g.lineTo(w, lane); g.stroke();
       for (const l of landmarks) {
@@ -88,7 +89,10 @@ function Strip({ journey, landmarks, twins }) {
         }
       }
       g.fillStyle = g.strokeStyle = colour('bad');
-      for (const t of twins) for (const s of [t.firstStep ?? 0, t.secondStep ?? 0]) { g.beginPath(); g.moveTo(px(s), 2 * lane); g.lineTo(px(s) - 4, 2 * lane + 8); g.lineTo(px(s) + 4, 2 * lane + 8); g.fill(); }
+      for (const t of twins) for (const s of [t.firstStep ?? 0, t.secondStep ?? 0]) {
+        const x = Math.min(Math.max(px(s), 4), w - 4);
+        g.beginPath(); g.moveTo(x, 2 * lane); g.lineTo(x - 4, 2 * lane + 8); g.lineTo(x + 4, 2 * lane + 8); g.fill();
+      }
       g.fillStyle = colour('text');
       g.fillText('left side', 6, 14); g.fillText('right side', 6, lane + 14);
     };
@@ -169,7 +173,7 @@ export function Journey({ name, session }) {
       {landmarks.length === 0 ? <Empty title="No landmarks" command={`homing journeys show ${name}`}>Nothing was recorded yet, or this login may not read the map.</Empty> : (
         <>
           <Strip journey={journey} landmarks={landmarks} twins={twins} />
-          <Chart title="Fingerprints at each step" x={counts.x} xLabel="step from home" yLabel="fingerprints" range={(_, __, max) => [0, Math.max(max, 1)]} series={[{ label: 'fingerprints a step', colour: 'accent', values: counts.y, bars: true }]} />
+          <Chart title="Fingerprints at each step" x={counts.x} xLabel="step from home" yLabel="fingerprints" whole range={(_, __, max) => [0, Math.max(max, 1)]} series={[{ label: 'fingerprints a step', colour: 'accent', values: counts.y, bars: true }]} />
         </>)}
       {longest > 0 && (
         <>

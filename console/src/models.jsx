@@ -80,7 +80,7 @@ export function Match({ name, query }) {
         </div>))}
       {pairs.length > 0 && (
         <div class="scroll" tabindex="0" role="region" aria-label="Pairs of landmarks"><table>
-          <thead><tr><th scope="col">Side</th><th scope="col" class="num wrap">Landmark at {a}</th><th scope="col" class="num wrap">Landmark at {b}</th><th scope="col" class="num wide">Vectors</th><th scope="col" class="num">δ, px</th><th scope="col" class="num">P</th><th scope="col" class="num">P<sub>T</sub></th></tr></thead>
+          <thead><tr><th scope="col">Side</th><th scope="col" class="num"><span class="wide">Landmark </span>at {a}</th><th scope="col" class="num"><span class="wide">Landmark </span>at {b}</th><th scope="col" class="num wide">Vectors</th><th scope="col" class="num">δ, px</th><th scope="col" class="num">P</th><th scope="col" class="num">P<sub>T</sub></th></tr></thead>
           <tbody>{pairs.slice(0, 12).map((p) => <tr key={p.l.id + '-' + p.r.id}><td>{p.l.side === 'SIDE_LEFT' ? 'left' : 'right'}</td><td class="num">{p.l.id}</td><td class="num">{p.r.id}</td>
             <td class="num wide">{p.l.count} / {p.r.count}</td><td class="num">{p.delta.toFixed(1)}</td><td class="num">{p.p.toFixed(2)}</td><td class="num">{p.pt >= 0.2 ? <strong>{p.pt.toFixed(2)}</strong> : p.pt.toFixed(2)}</td></tr>)}</tbody>
         </table></div>)}

@@ -70,7 +70,7 @@ export const themed = () => document.documentElement.dataset.theme + matchMedia(
 const atLeast30s = (_, min, max) => (min == null ? [min, max] : [Math.min(min, max - 30), max]);
 const clock = (_, times) => times.map((t) => (t % 1 ? '' : new Date(t * 1000).toLocaleTimeString('en-GB')));
 // A uPlot chart; `series` is [{label, colour, values, bars, dash, scale}], all over `x`.
-export function Chart({ title, x, series, xLabel, xRange, yLabel, range, height = 200, time = false, describe }) {
+export function Chart({ title, x, series, xLabel, xRange, yLabel, range, height = 200, time = false, whole = false, describe }) {
   const box = useRef();
   const plot = useRef();
   const made = useRef('');
@@ -90,10 +90,10 @@ export function Chart({ title, x, series, xLabel, xRange, yLabel, range, height 
     plot.current = new uPlot({
       width: box.current.clientWidth || 300, height,
       scales: { x: { time, range: time ? atLeast30s : xRange }, y: { range: range ?? undefined } },
-      axes: [{ ...axis(xLabel), size: 30, ...(time && { values: clock, space: 70 }) }, axis(yLabel)],
+      axes: [{ ...axis(xLabel), size: 30, ...(time && { values: clock, space: 70 }) }, { ...axis(yLabel), ...(whole && { incrs: [1, 2, 5, 10, 20, 50, 100] }) }],
       legend: { show: series.length > 1 }, cursor: { y: false },
       series: [{ label: xLabel, value: (_, v) => (v == null ? '–' : time ? new Date(v * 1000).toLocaleTimeString('en-GB') : +v.toPrecision(6)) }, ...series.map((s) => ({
-        label: s.label, stroke: colour(s.colour), width: s.bars ? 0 : 2, dash: s.dash, points: { show: false },
+        label: s.label, stroke: colour(s.colour), width: s.bars ? 0 : 2, dash: s.dash, points: { show: false }, pxAlign: 0,
         fill: s.bars ? colour(s.colour) : undefined, paths: s.bars ? uPlot.paths.bars({ size: [0.9, 60] }) : undefined,
         value: (_, v) => (v == null ? '–' : +v.toPrecision(3)),
       }))],

@@ -37,14 +37,14 @@ export function Server({ session }) {
         {days !== undefined && <Tile label="days of certificate" value={number(days)} tone={days < 30 ? 'bad' : ''} />}
       </div>
       <div class="grid">
-        <section class="card"><h2>Server</h2><Facts facts={[['Version', session.version], ['Started', start ? ago(new Date(start * 1000).toISOString()) : undefined],
+        <div><section class="card"><h2>Server</h2><Facts facts={[['Version', session.version], ['Started', start ? ago(new Date(start * 1000).toISOString()) : undefined],
           ['Observations received', number(sum('homing_observations_received_total'))], ['Observations made durable', number(value('homing_db_appends_total'))],
           ['Waiting for the disk', number(value('homing_ingest_queue_depth'))], ['Waiting for a worker', number(value('homing_worker_queue_depth'))],
           ['Open files', number(value('process_open_fds'))], ['Certificate ends', end ? new Date(end * 1000).toISOString().slice(0, 10) : 'no TLS']]} /></section>
+        <section class="card"><h2>Errors since the start</h2>{errors.length === 0 ? <p class="dim">None.</p> : <table><thead><tr><th scope="col">Code</th><th scope="col">Reason</th><th scope="col" class="num">Calls</th></tr></thead>
+          <tbody>{errors.slice(0, 12).map((e) => <tr key={e.labels.code + e.labels.reason}><td>{e.labels.code}</td><td>{e.labels.reason || '–'}</td><td class="num">{number(e.value)}</td></tr>)}</tbody></table>}</section></div>
         <section class="card"><h2>Limits</h2><div class="scroll"><table><thead><tr><th scope="col">Limit</th><th scope="col" class="num">Set to</th></tr></thead>
           <tbody>{limits.map((l) => <tr key={l.labels.limit}><th scope="row"><code>--{l.labels.limit}</code></th><td class="num">{setTo(l)}</td></tr>)}</tbody></table></div></section>
-        <section class="card"><h2>Errors since the start</h2>{errors.length === 0 ? <p class="dim">None.</p> : <table><thead><tr><th scope="col">Code</th><th scope="col">Reason</th><th scope="col" class="num">Calls</th></tr></thead>
-          <tbody>{errors.slice(0, 12).map((e) => <tr key={e.labels.code + e.labels.reason}><td>{e.labels.code}</td><td>{e.labels.reason || '–'}</td><td class="num">{number(e.value)}</td></tr>)}</tbody></table>}</section>
       </div>
     </>
   );
