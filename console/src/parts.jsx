@@ -93,7 +93,7 @@ export function Chart({ title, x, series, xLabel, xRange, yLabel, range, height 
       axes: [{ ...axis(xLabel), size: 30, ...(time && { values: clock, space: 70 }) }, { ...axis(yLabel), ...(whole && { incrs: [1, 2, 5, 10, 20, 50, 100] }) }],
       legend: { show: series.length > 1 }, cursor: { y: false },
       series: [{ label: xLabel, value: (_, v) => (v == null ? '–' : time ? new Date(v * 1000).toLocaleTimeString('en-GB') : +v.toPrecision(6)) }, ...series.map((s) => ({
-        label: s.label, stroke: colour(s.colour), width: s.bars ? 0 : 2, dash: s.dash, points: { show: false }, pxAlign: 0,
+        label: s.label, stroke: colour(s.colour), width: s.bars ? 0 : 2, dash: s.dash, points: { show: false }, pxAlign: s.bars ? 1 : 0,
         fill: s.bars ? colour(s.colour) : undefined, paths: s.bars ? uPlot.paths.bars({ size: [0.9, 60] }) : undefined,
         value: (_, v) => (v == null ? '–' : +v.toPrecision(3)),
       }))],
