@@ -150,8 +150,8 @@ absl::Status RunEvaluate(const Session& session, const EvaluateFlags& flags) {
   HOMING_RETURN_IF_ERROR(PrintVerdict(session, flags, places, verdict));
   if (!flags.out.empty()) HOMING_RETURN_IF_ERROR(DrawEvaluation(flags, places));
   if (verdict.share() >= flags.require) return absl::OkStatus();
-  return absl::FailedPreconditionError(
-      absl::StrFormat("the fraction %.3f is below the required %.3f", verdict.share(), flags.require));
+  return absl::FailedPreconditionError(absl::StrFormat(
+      "the fraction %.3f is below the required %.3f", verdict.share(), flags.require));
 }
 
 }  // namespace
