@@ -91,7 +91,7 @@ HeldPipe::~HeldPipe() {
 }
 
 absl::Status WriteStandardOutput(const Write& write) {
-  const absl::Status status = write(std::cout);
+  absl::Status status = write(std::cout);
   if (!status.ok()) return status;
   errno = 0;
   std::cout.flush();
