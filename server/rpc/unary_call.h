@@ -74,16 +74,22 @@ class UnaryCall : public std::enable_shared_from_this<UnaryCall> {
   IncomingCall incoming_;
 };
 
+// What a call does after the part that waits for the store. No work: nothing.
+struct SecondPart {
+  std::function<absl::Status()> work;
+  // Of the core.
+  WorkerPool* pool = nullptr;
+};
+
 // `call` is absl::Status(const JourneyFilter&), or takes the IncomingCall too. It runs only if the
 // caller may do this to `resource`, and may use the RPC's request and `response`, which outlive it.
-// For a pattern it must apply the filter. `pool` belongs to the core. `compute`, if given, is
-// absl::Status(), and runs in `compute_pool` after `call`, which then only waits for the store.
+// For a pattern it must apply the filter. `pool` belongs to the core. With a second part, `call`
+// only waits for the store.
 template <typename Call>
 grpc::ServerUnaryReactor* ServeUnary(ServiceCore* core, grpc::CallbackServerContext* context,
                                      Rpc rpc, const std::string& resource,
                                      google::protobuf::Message* response, Call call,
-                                     WorkerPool* pool, std::function<absl::Status()> compute = {},
-                                     WorkerPool* compute_pool = nullptr) {
+                                     WorkerPool* pool, SecondPart second = {}) {
   const auto unary = std::make_shared<UnaryCall>(core, context, rpc, response);
   const auto finish = [unary](const absl::Status& status) { unary->Finish(status); };
   if (const absl::Status admitted = unary->Admit(); !admitted.ok()) {
@@ -101,9 +107,9 @@ grpc::ServerUnaryReactor* ServeUnary(ServiceCore* core, grpc::CallbackServerCont
           return call(incoming.filter());
         }
       },
-      [unary, finish, compute = std::move(compute), compute_pool](const absl::Status& status) {
-        if (status.ok() && compute) {
-          unary->RunIn(compute_pool, compute, finish);
+      [unary, finish, second = std::move(second)](const absl::Status& status) {
+        if (status.ok() && second.work) {
+          unary->RunIn(second.pool, second.work, finish);
         } else {
           finish(status);
         }

@@ -82,6 +82,11 @@ class WatchStream : public grpc::ServerWriteReactor<Response>,
  private:
   void Begin() {
     const TraceScope scope(call_.trace());
+    {
+      // Nobody waits for what Prepare reads.
+      const MutexLock lock(mutex_);
+      if (end_) return;
+    }
     const absl::Status status = Guarded([this]() -> absl::Status {
       const absl::Status allowed = call_.Authorize(resource_);
       return allowed.ok() ? Prepare(core_) : allowed;

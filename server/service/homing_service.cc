@@ -60,8 +60,9 @@ grpc::ServerUnaryReactor* HomingServiceHandler::MatchLandmarks(
   return ServeUnary(
       core_, context, Rpc::kMatchLandmarks, request->journey(), response,
       [search, request](const JourneyFilter& filter) { return search->Load(*request, filter); },
-      &core_->store_reads, [search, response] { return search->Match(response); },
-      IsLong(*request) ? &core_->long_work : &core_->pool);
+      &core_->store_reads,
+      {[search, response] { return search->Match(response); },
+       IsLong(*request) ? &core_->long_work : &core_->pool});
 }
 
 grpc::ServerBidiReactor<v1::LocalizeRequest, v1::LocalizeResponse>* HomingServiceHandler::Localize(

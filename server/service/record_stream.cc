@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "homing/base/status_macros.h"
+#include "server/base/resource_name.h"
 #include "server/service/message_conversion.h"
 #include "server/service/stream_messages.h"
 
@@ -29,6 +30,8 @@ absl::Status RecordStream::Handle(const v1::RecordJourneyRequest& request) {
 absl::Status RecordStream::Begin(const v1::RecordingConfig& config) {
   HOMING_RETURN_IF_ERROR(call().Authorize(config.journey()));
   HOMING_RETURN_IF_ERROR(core()->quota.CheckGrowth(config.journey()));
+  // The board keeps the names of robots.
+  HOMING_RETURN_IF_ERROR(ParseJourneyName(config.journey(), "config.journey").status());
   journey_ = config.journey();
   const std::weak_ptr<BidiStream> weak = weak_from_this();
   presence_ = core()->fleet.Enter(call().RobotOf("", journey_), v1::ACTIVITY_RECORDING, journey_);

@@ -88,6 +88,18 @@ TEST_F(FleetServiceTest, ARobotIsListedWithWhatItDoesAndStaysWhenItIsOffline) {
   EXPECT_TRUE(robots[0].has_last_seen());
 }
 
+TEST_F(FleetServiceTest, ANameThatIsRefusedIsNoRobot) {
+  grpc::ClientContext context;
+  const auto stream = journeys_->RecordJourney(&context);
+  v1::RecordJourneyRequest request;
+  request.mutable_config()->set_journey("x7/" + std::string(100'000, 'A'));
+  stream->Write(request);
+  v1::RecordJourneyResponse response;
+  EXPECT_FALSE(stream->Read(&response));
+  EXPECT_EQ(stream->Finish().error_code(), grpc::StatusCode::INVALID_ARGUMENT);
+  EXPECT_TRUE(Robots().empty());
+}
+
 TEST_F(FleetServiceTest, AWatcherOfTheFleetSeesALostRobotWithinASecond) {
   ASSERT_THAT(Create(), IsGrpcOk());
   RecordFlow(0, 60);
