@@ -11,7 +11,7 @@ constexpr double kLastReading = 0.3;
 // The filter's fastest speed.
 constexpr double kMostMoved = 8;
 // Evidence of an observation: steps moved over correlation length, times this.
-constexpr double kEvidencePerLength = 1.65;
+constexpr double kEvidencePerLength = 1.5;
 constexpr double kLeastEvidence = 0.01;
 
 double MeanReading(std::span<const std::int16_t> readings, const StepMass& mass) {

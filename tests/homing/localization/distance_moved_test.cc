@@ -6,8 +6,8 @@ namespace homing {
 namespace {
 
 TEST(EvidenceWeightTest, CountsTheDistanceInCorrelationLengths) {
-  EXPECT_NEAR(EvidenceWeight(1, 6), 0.275, 1e-9);
-  EXPECT_NEAR(EvidenceWeight(0.5, 6), 0.1375, 1e-9);
+  EXPECT_NEAR(EvidenceWeight(1, 6), 0.25, 1e-9);
+  EXPECT_NEAR(EvidenceWeight(0.5, 6), 0.125, 1e-9);
   EXPECT_EQ(EvidenceWeight(10, 1), 1);
   EXPECT_GT(EvidenceWeight(0, 6), 0);
 }
