@@ -15,12 +15,13 @@ void MixLanes(const LaneNeighbours& lanes, const LaneMix& mix, std::span<float> 
 }
 
 HOMING_VECTOR_CLONES
-void MoveLane(std::span<const float> in, const std::array<float, 3>& taps, float added,
+void MoveLane(std::span<const float> in, const std::array<float, 4>& taps, float added,
               std::span<float> out) {
   const float* const from = in.data();
   float* const to = out.data();
   for (std::size_t s = 0; s < out.size(); ++s) {
-    to[s] = added + taps[0] * from[s] + taps[1] * from[s + 1] + taps[2] * from[s + 2];
+    to[s] = added + taps[0] * from[s] + taps[1] * from[s + 1] + taps[2] * from[s + 2] +
+            taps[3] * from[s + 3];
   }
 }
 

@@ -10,10 +10,10 @@
 
 namespace homing {
 
-// Probabilities of moving by `first`, first + 1 and first + 2 steps.
+// Probabilities of moving by `first`, first + 1, ... steps.
 struct Displacement {
   int first = 0;
-  std::array<float, 3> probabilities{};
+  std::array<float, 4> probabilities{};
 };
 
 // Fractions that a motion state keeps and that it receives from others, an observation.
@@ -35,8 +35,8 @@ struct LaneNeighbours {
 };
 void MixLanes(const LaneNeighbours& lanes, const LaneMix& mix, std::span<float> out);
 
-// out[s] = added + sum of taps[i] in[s + i]. REQUIRES: in is two longer than out.
-void MoveLane(std::span<const float> in, const std::array<float, 3>& taps, float added,
+// out[s] = added + sum of taps[i] in[s + i]. REQUIRES: in is three longer than out.
+void MoveLane(std::span<const float> in, const std::array<float, 4>& taps, float added,
               std::span<float> out);
 
 // Multiplies a lane by the factors, by `scale` and by table[index], and adds it to `sum`. Values

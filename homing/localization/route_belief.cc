@@ -16,11 +16,10 @@ constexpr double kJumpFraction = 0.3;
 constexpr int kUnseenMoves = 4;
 // Probability an observation that the robot turns back.
 constexpr float kTurnBack = 0.0003F;
-// Probability an observation of moving by one either way while standing: that may be a robot slower
-// than the least speed.
-constexpr float kCreep = 0.02F;
+// Probability an observation of being one step further, or one less far, than the speed says.
+constexpr double kDiffusion = 0.02;
 // Probability of moving by one either way in a turn on the spot.
-constexpr float kTurnMotion = 0.05F;
+constexpr double kTurnMotion = 0.05;
 // Keeps denormal numbers out.
 constexpr float kLeastMass = 1e-30F;
 // No motion goes further than this, steps.
@@ -28,17 +27,22 @@ constexpr std::int64_t kFurthest = 10;
 // Steps of a lane that cost no more memory than fewer would.
 constexpr std::size_t kRoom = 64;
 
-constexpr Displacement MoveByOne(float probability) {
-  return {.first = -1, .probabilities = {probability, 1 - 2 * probability, probability}};
-}
-
 // A speed between two whole numbers moves by either so that it is right on average.
 Displacement DisplacementOf(double speed) {
-  if (speed == 0) return MoveByOne(kCreep);
   const double whole = std::floor(speed);
-  const auto part = static_cast<float>(speed - whole);
-  return {.first = static_cast<int>(whole), .probabilities = {1 - part, part, 0}};
+  const double part = speed - whole;
+  const double q = kDiffusion;
+  return {.first = static_cast<int>(whole) - 1,
+          .probabilities = {static_cast<float>((1 - part) * q),
+                            static_cast<float>((1 - part) * (1 - 2 * q) + part * q),
+                            static_cast<float>((1 - part) * q + part * (1 - 2 * q)),
+                            static_cast<float>(part * q)}};
 }
+
+constexpr Displacement kTurned{
+    .first = -1,
+    .probabilities = {static_cast<float>(kTurnMotion), static_cast<float>(1 - 2 * kTurnMotion),
+                      static_cast<float>(kTurnMotion), 0}};
 
 // Fraction of a lane in the mass of a step: all directions and speeds alike.
 constexpr double kPrior = 1.0 / (2 * kSpeedCount);
@@ -122,7 +126,7 @@ void RouteBelief::Mix(std::size_t lane, const Motion& motion, const Carried& car
 void RouteBelief::MoveMixed(std::size_t lane, const Motion& motion, double restart,
                             const Lane& mixed, Lane& moved) const {
   const Displacement& displacement = motion.displacements[lane % kSpeedCount];
-  std::array<float, 3> taps = displacement.probabilities;
+  std::array<float, 4> taps = displacement.probabilities;
   for (float& tap : taps) {
     tap *= static_cast<float>(scale_);
   }
@@ -130,15 +134,15 @@ void RouteBelief::MoveMixed(std::size_t lane, const Motion& motion, double resta
   std::int64_t from = kFurthest + displacement.first;
   if (lane >= kSpeedCount) {
     std::ranges::reverse(taps);
-    from = kFurthest - displacement.first - 2;
+    from = kFurthest - displacement.first - 3;
   }
   moved.resize(mixed.size() - 2 * kFurthest);
   MoveLane(std::span(mixed).subspan(static_cast<std::size_t>(from)), taps,
            static_cast<float>(restart * kPrior), moved);
 }
 
-// Speed by speed, both directions at once: only the previous speed must be kept unchanged. This
-// reads less memory than two passes over all lanes.
+// Speed by speed, both directions at once: only the speed before is needed as it was. Less memory
+// is gone through than with all lanes twice.
 void RouteBelief::Carry(const Motion& motion, double restart) {
   if (focus_size() == 0) {
     AddToEach(restart);
@@ -199,7 +203,7 @@ double RouteBelief::MoveMixing(double to_neighbours, double to_any, double resta
 void RouteBelief::Turn(double restart) {
   static const Motion motion = [] {
     Motion all;
-    all.displacements.fill(MoveByOne(kTurnMotion));
+    all.displacements.fill(kTurned);
     return all;
   }();
   Carry(motion, restart);

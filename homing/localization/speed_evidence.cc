@@ -10,7 +10,7 @@ namespace {
 
 // Width of the ratio's distribution (Laplace): this many times its noise, at least kLeastWidth
 // octaves. A fraction kOutlierFraction of the ratios is six times as wide.
-constexpr double kWidthOfNoise = 3;
+constexpr double kWidthOfNoise = 4;
 constexpr double kLeastWidth = 0.08;
 constexpr double kOutlierFraction = 0.05;
 constexpr double kOutlierWidth = 6;
@@ -20,7 +20,7 @@ constexpr double kHalfSpacing = 0.25;
 // A slower robot counts as standing, log2 of steps an observation.
 constexpr double kStanding = -3.6;
 // Noise at which the odometer counts half as good as it can be, octaves.
-constexpr double kHalfNoise = 0.12;
+constexpr double kHalfNoise = 0.087;
 // Consecutive ratios of a poor odometer err alike: exponent of what one says.
 constexpr double kPoorWeight = 0.3;
 // Probability an observation that the speed changes: with a poor odometer, and with a good one.
