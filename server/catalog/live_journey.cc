@@ -274,6 +274,15 @@ MapsLock::MapsLock(const LiveJourneys& journeys) HOMING_UNCHECKED_LOCKS : journe
   }
 }
 
+std::vector<JourneyRef> MapsLock::refs() const {
+  std::vector<JourneyRef> refs;
+  refs.reserve(journeys_.size());
+  for (const std::shared_ptr<LiveJourney>& journey : journeys_) {
+    refs.push_back({&journey->name(), &journey->map()});
+  }
+  return refs;
+}
+
 MapsLock::~MapsLock() HOMING_UNCHECKED_LOCKS {
   for (const std::shared_ptr<LiveJourney>& journey : journeys_) {
     journey->UnlockMap();

@@ -12,6 +12,7 @@
 #include "homing/base/mutex.h"
 #include "homing/journey/journey_map.h"
 #include "homing/journey/journey_recorder.h"
+#include "homing/journey/journey_ref.h"
 #include "server/catalog/writer_lease.h"
 #include "storage/journey_store.h"
 
@@ -147,6 +148,9 @@ class MapsLock {
   ~MapsLock();
   MapsLock(const MapsLock&) = delete;
   MapsLock& operator=(const MapsLock&) = delete;
+
+  // The locked maps with their names, in the order of the journeys.
+  std::vector<JourneyRef> refs() const;
 
  private:
   const LiveJourneys& journeys_;

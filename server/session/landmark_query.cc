@@ -168,10 +168,7 @@ absl::StatusOr<LandmarkQueryResult> MatchLandmarks(JourneyCatalog* catalog,
 
   LandmarkQueryResult result{now.motion, {}, std::move(now.sides)};
   const MapsLock lock(selection.journeys);
-  std::vector<JourneyRef> refs;
-  for (const std::shared_ptr<LiveJourney>& journey : selection.journeys) {
-    refs.push_back({&journey->name(), &journey->map()});
-  }
+  const std::vector<JourneyRef> refs = lock.refs();
   const auto matches = Matcher().Find(refs, result.seen, query.match, limits.cancellation);
   HOMING_RETURN_IF_ERROR(CheckAwaited(limits.cancellation));
   for (const Match& match : matches) {

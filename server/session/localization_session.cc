@@ -41,14 +41,6 @@ QueryRobot RobotOf(const HomingQuery& query) {
   return robot;
 }
 
-std::vector<JourneyRef> RefsOf(const LiveJourneys& journeys) {
-  std::vector<JourneyRef> refs;
-  for (const std::shared_ptr<LiveJourney>& journey : journeys) {
-    refs.push_back({&journey->name(), &journey->map()});
-  }
-  return refs;
-}
-
 }  // namespace
 
 absl::StatusOr<std::unique_ptr<LocalizationSession>> LocalizationSession::Open(
@@ -122,15 +114,16 @@ absl::Status LocalizationSession::Start(const Observation& observation) {
 }
 
 // A prior on a journey that was not selected is ignored.
-absl::Status LocalizationSession::StartAt(const LocalizationPrior& prior) {
-  for (std::size_t i = 0; i < journeys_.size(); ++i) {
-    if (journeys_[i]->name() != prior.journey) continue;
+absl::Status LocalizationSession::StartAt(const LocalizationPrior& prior,
+                                          std::span<const JourneyRef> journeys) {
+  for (std::size_t i = 0; i < journeys.size(); ++i) {
+    if (*journeys[i].name != prior.journey) continue;
     HOMING_RETURN_IF_ERROR(CheckRange("config.prior.path_offset",
                                       prior.start.path_offset.value_or(0), -kMostPathOffset,
                                       kMostPathOffset));
     PositionPrior start = prior.start;
     start.journey = static_cast<int>(i);
-    return Within("config", localizer_->Start(RefsOf(journeys_), start));
+    return Within("config", localizer_->Start(journeys, start));
   }
   return absl::OkStatus();
 }
@@ -159,11 +152,12 @@ absl::StatusOr<Localization> LocalizationSession::Localize(const Observation& ob
   }
   HOMING_RETURN_IF_ERROR(LeaveDeleted());
   const MapsLock lock(journeys_);
+  const std::vector<JourneyRef> journeys = lock.refs();
   if (!started_ && prior_) {
-    HOMING_RETURN_IF_ERROR(StartAt(*prior_));
+    HOMING_RETURN_IF_ERROR(StartAt(*prior_, journeys));
   }
   started_ = true;
-  absl::StatusOr<Localization> result = localizer_->Localize(observation, RefsOf(journeys_));
+  absl::StatusOr<Localization> result = localizer_->Localize(observation, journeys);
   if (!result.ok()) return Within("observation", result.status());
   GiveMemoryBack();
   due_ = observation.sequence + 1;

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -80,7 +81,7 @@ class LocalizationSession {
   void GiveMemoryBack();
   absl::Status CheckSequence(std::int64_t sequence);
   absl::Status Start(const Observation& observation);
-  absl::Status StartAt(const LocalizationPrior& prior);
+  absl::Status StartAt(const LocalizationPrior& prior, std::span<const JourneyRef> journeys);
   // Continues without the deleted journeys.
   absl::Status LeaveDeleted();
 
