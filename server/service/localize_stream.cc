@@ -33,7 +33,7 @@ absl::Status LocalizeStream::Handle(const v1::LocalizeRequest& request) {
 
 absl::Status LocalizeStream::Begin(const v1::LocalizeConfig& config) {
   HOMING_RETURN_IF_ERROR(call().Authorize(config.journey()));
-  HOMING_ASSIGN_OR_RETURN(HomingQuery query, DecodeHomingQuery(config));
+  HOMING_ASSIGN_OR_RETURN(LocalizationQuery query, DecodeLocalizationQuery(config));
   query.filter = call().filter();
   HOMING_ASSIGN_OR_RETURN(session_,
                           LocalizationSession::Open(&core()->catalog, query, decode_limits()));

@@ -197,8 +197,8 @@ v1::MatchLandmarksResponse EncodeQueryResult(const LandmarkQueryResult& result) 
   return message;
 }
 
-absl::StatusOr<HomingQuery> DecodeHomingQuery(const v1::LocalizeConfig& config) {
-  HomingQuery query;
+absl::StatusOr<LocalizationQuery> DecodeLocalizationQuery(const v1::LocalizeConfig& config) {
+  LocalizationQuery query;
   query.journey = config.journey();
   HOMING_ASSIGN_OR_RETURN(query.travel, wire::FromProto(config.travel(), "config.travel"));
   HOMING_ASSIGN_OR_RETURN(

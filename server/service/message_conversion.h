@@ -26,7 +26,7 @@ v1::MatchLandmarksResponse EncodeQueryResult(const LandmarkQueryResult& result);
 v1::DeviationModel EncodeModel(const storage::StoredModel& model);
 
 // INVALID_ARGUMENT naming field, value and limit. Unset fields have their defaults.
-absl::StatusOr<HomingQuery> DecodeHomingQuery(const v1::LocalizeConfig& config);
+absl::StatusOr<LocalizationQuery> DecodeLocalizationQuery(const v1::LocalizeConfig& config);
 // Frames point into `request`, which must outlive the result.
 absl::StatusOr<LandmarkQuery> DecodeLandmarkQuery(const v1::MatchLandmarksRequest& request,
                                                   const wire::WireLimits& limits);

@@ -34,7 +34,7 @@ absl::Status MeasureView(const CameraView& view, const DecodeLimits& limits, int
   return absl::OkStatus();
 }
 
-QueryRobot RobotOf(const HomingQuery& query) {
+QueryRobot RobotOf(const LocalizationQuery& query) {
   QueryRobot robot;
   robot.travel = query.travel;
   robot.cameras = query.cameras;
@@ -44,7 +44,7 @@ QueryRobot RobotOf(const HomingQuery& query) {
 }  // namespace
 
 absl::StatusOr<std::unique_ptr<LocalizationSession>> LocalizationSession::Open(
-    JourneyCatalog* catalog, const HomingQuery& query, const DecodeLimits& limits) {
+    JourneyCatalog* catalog, const LocalizationQuery& query, const DecodeLimits& limits) {
   HOMING_ASSIGN_OR_RETURN(JourneyName pattern,
                           ParseJourneyPattern(query.journey, "config.journey"));
   HOMING_RETURN_IF_ERROR(Within("config", Validate(query.match)));

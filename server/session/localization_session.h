@@ -22,7 +22,7 @@ struct LocalizationPrior {
   PositionPrior start;
 };
 
-struct HomingQuery {
+struct LocalizationQuery {
   // Name or pattern; `filter` selects journeys of a pattern.
   std::string journey;
   JourneyFilter filter;
@@ -40,7 +40,7 @@ class LocalizationSession {
   // `catalog` must outlive the session. INVALID_ARGUMENT, NOT_FOUND, FAILED_PRECONDITION (the named
   // journey's camera).
   static absl::StatusOr<std::unique_ptr<LocalizationSession>> Open(JourneyCatalog* catalog,
-                                                                   const HomingQuery& query,
+                                                                   const LocalizationQuery& query,
                                                                    const DecodeLimits& limits);
 
   // The first observation may have any sequence; each later one must have the next: OUT_OF_RANGE.
@@ -66,7 +66,7 @@ class LocalizationSession {
   }
 
  private:
-  LocalizationSession(JourneyCatalog* catalog, const HomingQuery& query, JourneyName pattern,
+  LocalizationSession(JourneyCatalog* catalog, const LocalizationQuery& query, JourneyName pattern,
                       const DecodeLimits& limits)
       : catalog_(catalog),
         query_(query),
@@ -86,7 +86,7 @@ class LocalizationSession {
   absl::Status LeaveDeleted();
 
   JourneyCatalog* const catalog_;
-  const HomingQuery query_;
+  const LocalizationQuery query_;
   const JourneyName pattern_;
   const DecodeLimits limits_;
   LiveJourneys journeys_;

@@ -58,7 +58,7 @@ class LiveJourneyTest : public SessionTest {
   }
 
   absl::StatusOr<std::unique_ptr<LocalizationSession>> Localise() {
-    HomingQuery query;
+    LocalizationQuery query;
     query.journey = kJourney;
     query.travel = Travel::kSame;
     return LocalizationSession::Open(catalog_.get(), query, {});

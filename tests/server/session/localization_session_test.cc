@@ -19,7 +19,7 @@ class LocalizationSessionTest : public SessionTest {
   void SetUp() override { Create(); }
 
   absl::StatusOr<std::unique_ptr<LocalizationSession>> Open(const std::string& journey = kJourney) {
-    HomingQuery query;
+    LocalizationQuery query;
     query.journey = journey;
     query.travel = Travel::kSame;
     return LocalizationSession::Open(catalog_.get(), query, {});
@@ -104,7 +104,7 @@ TEST_F(LocalizationSessionTest, ABadQueryIsRefusedAtOnce) {
               StatusIs(absl::StatusCode::kNotFound, HasSubstr("none")));
   EXPECT_THAT(Open("journeys/out"),
               StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("config.journey")));
-  HomingQuery query;
+  LocalizationQuery query;
   query.journey = kJourney;
   query.match.threshold = 2;
   EXPECT_THAT(LocalizationSession::Open(catalog_.get(), query, {}),
