@@ -147,7 +147,7 @@ void LiveJourney::EndAppend(const storage::JourneyAppend& append, const absl::St
       }
       if (append.step) {
         CountStep(*append.step, &record_);
-        if (map_state_ != MapState::kNone) unabsorbed_.push_back(*append.step);
+        if (map_state_ != MapState::kNone) pending_.push_back(*append.step);
         if (index_ != nullptr) indexed = record_.settings;
       }
     }
@@ -162,7 +162,7 @@ void LiveJourney::EndAppend(const storage::JourneyAppend& append, const absl::St
   }
   quiet_.NotifyAll();
   if (map_mutex_.TryLock()) {
-    AbsorbSteps();
+    ApplyPending();
     map_mutex_.Unlock();
   }
 }
@@ -209,12 +209,12 @@ void LiveJourney::MarkDeleted() {
   deleted_ = true;
 }
 
-void LiveJourney::AbsorbSteps() {
+void LiveJourney::ApplyPending() {
   std::vector<JourneyStep> steps;
   {
     const MutexLock lock(mutex_);
     if (map_state_ != MapState::kLoaded) return;
-    steps.swap(unabsorbed_);
+    steps.swap(pending_);
     if (std::exchange(settings_changed_, false)) {
       map_.mutable_settings() = record_.settings;
     }
@@ -241,7 +241,7 @@ absl::Status LiveJourney::LoadMap() {
   absl::Status status = deleted_ ? CheckPresent() : map.status();
   if (!status.ok()) {
     map_state_ = MapState::kNone;
-    unabsorbed_ = {};
+    pending_ = {};
     return status;
   }
   map_ = *std::move(map);
@@ -258,11 +258,11 @@ void LiveJourney::LockMap() {
   bool behind = false;
   {
     const MutexLock lock(mutex_);
-    behind = !unabsorbed_.empty() || settings_changed_;
+    behind = !pending_.empty() || settings_changed_;
   }
   if (behind) {
     map_mutex_.Lock();
-    AbsorbSteps();
+    ApplyPending();
     map_mutex_.Unlock();
   }
   map_mutex_.LockShared();

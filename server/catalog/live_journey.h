@@ -110,7 +110,7 @@ class LiveJourney {
   void AwaitQuiet() HOMING_REQUIRES(mutex_);
   // False: the map was requested meanwhile, and its new steps were not loaded.
   bool TakeGrowth(storage::JourneyGrowth growth, bool with_steps);
-  void AbsorbSteps() HOMING_REQUIRES(map_mutex_);
+  void ApplyPending() HOMING_REQUIRES(map_mutex_);
 
   const std::string name_;
   storage::JourneyStore* const store_;
@@ -135,7 +135,7 @@ class LiveJourney {
   bool deleted_ HOMING_GUARDED_BY(mutex_) = false;
   MapState map_state_ HOMING_GUARDED_BY(mutex_) = MapState::kNone;
   // Committed steps that are not in map_ yet (the loaded map may hold some). Empty without a map.
-  std::vector<JourneyStep> unabsorbed_ HOMING_GUARDED_BY(mutex_);
+  std::vector<JourneyStep> pending_ HOMING_GUARDED_BY(mutex_);
   bool settings_changed_ HOMING_GUARDED_BY(mutex_) = false;
 };
 

@@ -51,7 +51,7 @@ absl::Status LiveJourney::CatchUp() {
     if (TakeGrowth(std::move(growth), with_steps)) break;
   }
   if (map_mutex_.TryLock()) {
-    AbsorbSteps();
+    ApplyPending();
     map_mutex_.Unlock();
   }
   return absl::OkStatus();
@@ -67,7 +67,7 @@ bool LiveJourney::TakeGrowth(storage::JourneyGrowth growth, bool with_steps) {
   if (map_state_ != MapState::kNone) {
     if (!with_steps && growth.record.step_count > record_.step_count) return false;
     for (JourneyStep& step : growth.steps) {
-      if (step.step >= record_.step_count) unabsorbed_.push_back(std::move(step));
+      if (step.step >= record_.step_count) pending_.push_back(std::move(step));
     }
   }
   settings_changed_ = settings_changed_ || !(growth.record.settings == record_.settings);

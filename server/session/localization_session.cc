@@ -88,8 +88,8 @@ void LocalizationSession::GiveMemoryBack() {
 
 absl::Status LocalizationSession::CheckSequence(std::int64_t sequence) {
   HOMING_RETURN_IF_ERROR(CheckSequenceNumber(sequence));
-  if (due_ && sequence != *due_) {
-    return SequenceGapError(sequence, *due_);
+  if (expected_ && sequence != *expected_) {
+    return SequenceGapError(sequence, *expected_);
   }
   return absl::OkStatus();
 }
@@ -160,7 +160,7 @@ absl::StatusOr<Localization> LocalizationSession::Localize(const Observation& ob
   absl::StatusOr<Localization> result = localizer_->Localize(observation, journeys);
   if (!result.ok()) return Within("observation", result.status());
   GiveMemoryBack();
-  due_ = observation.sequence + 1;
+  expected_ = observation.sequence + 1;
   position_ = result->position;
   return result;
 }

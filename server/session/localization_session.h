@@ -96,7 +96,7 @@ class LocalizationSession {
   std::optional<LocalizationPrior> prior_;
   // The position of the last answer.
   Position position_;
-  std::optional<std::int64_t> due_;
+  std::optional<std::int64_t> expected_;
   bool started_ = false;
   MemoryBudget::Share memory_;
 };

@@ -56,12 +56,12 @@ absl::Status RecordingSession::Start(WriterClaim claim) {
   recorder_->Resume(tail);
   kind_ = record.input;
   next_ = record.next_sequence;
-  due_ = std::min(record.resend_from, next_);
+  expected_ = std::min(record.resend_from, next_);
   RecordingAnswer first;
   if (tail.last_sequence >= 0) first.frame = tail.last_sequence;
   const MutexLock lock(mutex_);
   durable_next_ = next_;
-  durable_resend_from_ = due_;
+  durable_resend_from_ = expected_;
   Deliver({true, absl::OkStatus(), std::move(first)});
   return absl::OkStatus();
 }
@@ -82,12 +82,12 @@ void RecordingSession::Reject(const absl::Status& status) { Complete(OpenSlot(),
 absl::Status RecordingSession::Process(const Observation& observation, TimePoint now,
                                        std::int64_t slot) {
   HOMING_RETURN_IF_ERROR(claim_.journey->Renew(claim_.claim, now));
-  HOMING_RETURN_IF_ERROR(CheckDue(observation));
+  HOMING_RETURN_IF_ERROR(CheckExpected(observation));
   const std::int64_t sequence = observation.sequence;
   RecordingAnswer answer;
   answer.sequence = sequence;
   answer.frame = observation.frame.value_or(sequence);
-  if (sequence < due_) {
+  if (sequence < expected_) {
     Complete(slot, absl::OkStatus(), std::move(answer));
     return absl::OkStatus();
   }
@@ -98,7 +98,7 @@ absl::Status RecordingSession::Process(const Observation& observation, TimePoint
     return Within("observation", step.status());
   }
   // Of the durable observations, tracking needs the reference only.
-  due_ = std::max(sequence + 1, next_);
+  expected_ = std::max(sequence + 1, next_);
   if (sequence < next_) {
     Complete(slot, absl::OkStatus(), std::move(answer));
     return absl::OkStatus();
@@ -114,11 +114,11 @@ absl::Status RecordingSession::Process(const Observation& observation, TimePoint
   return Commit(std::move(append), std::move(answer), slot);
 }
 
-absl::Status RecordingSession::CheckDue(const Observation& observation) const {
+absl::Status RecordingSession::CheckExpected(const Observation& observation) const {
   HOMING_RETURN_IF_ERROR(CheckSequenceNumber(observation.sequence));
   const bool resumes_after_break = observation.break_before && observation.sequence == next_;
-  if (observation.sequence > due_ && !resumes_after_break) {
-    return SequenceGapError(observation.sequence, due_);
+  if (observation.sequence > expected_ && !resumes_after_break) {
+    return SequenceGapError(observation.sequence, expected_);
   }
   return absl::OkStatus();
 }

@@ -83,7 +83,7 @@ class RecordingSession : public std::enable_shared_from_this<RecordingSession> {
       : context_(context), listener_(std::move(listener)) {}
   absl::Status Start(WriterClaim claim);
   absl::Status Process(const Observation& observation, TimePoint now, std::int64_t slot);
-  absl::Status CheckDue(const Observation& observation) const;
+  absl::Status CheckExpected(const Observation& observation) const;
   absl::Status CheckKind(const Observation& observation);
   absl::Status Commit(storage::JourneyAppend append, RecordingAnswer answer, std::int64_t slot);
   std::int64_t OpenSlot();
@@ -96,9 +96,9 @@ class RecordingSession : public std::enable_shared_from_this<RecordingSession> {
   WriterClaim claim_;
   std::optional<JourneyRecorder> recorder_;
   InputKind kind_ = InputKind::kUnknown;
-  // Next sequence for the recorder, and next sequence to commit. `due_` is the reference's until
-  // the client has sent the reference again.
-  std::int64_t due_ = 0;
+  // Next sequence for the recorder, and next sequence to commit. After a resumption `expected_` is
+  // the reference's, until the client has sent the reference again.
+  std::int64_t expected_ = 0;
   std::int64_t next_ = 0;
 
   Mutex mutex_;
