@@ -17,6 +17,7 @@
 #include "client/token_interceptor.h"
 #include "homing/base/field_error.h"
 #include "homing/base/file_text.h"
+#include "homing/base/host_port.h"
 #include "homing/base/status_macros.h"
 
 namespace homing::client {
@@ -42,7 +43,7 @@ bool IsThisMachine(const std::string& address) {
   const std::vector<std::string> servers = ServersOf(address);
   return std::all_of(servers.begin(), servers.end(), [](const std::string& server) {
     return absl::StartsWith(server, "127.0.0.1:") || absl::StartsWith(server, "localhost:") ||
-           absl::StartsWith(server, "[::1]:") || absl::StartsWith(server, "unix:");
+           absl::StartsWith(server, "[::1]:") || IsUnixSocket(server);
   });
 }
 

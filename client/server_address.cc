@@ -30,7 +30,7 @@ constexpr std::array<const char*, 3> kProxyVariables = {"grpc_proxy", "https_pro
 using Addresses = std::unique_ptr<addrinfo, void (*)(addrinfo*)>;
 
 bool IsSocketFile(const std::string& address) {
-  return absl::StartsWith(address, "unix:") || absl::StartsWith(address, "unix-abstract:");
+  return IsUnixSocket(address) || absl::StartsWith(address, "unix-abstract:");
 }
 
 // The system's own resolver: hosts file, mDNS and all. `error` is getaddrinfo's.

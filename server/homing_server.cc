@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "absl/strings/str_cat.h"
+#include "homing/base/host_port.h"
 #include "homing/base/status_macros.h"
 #include "server/core_gauges.h"
 #include "server/housekeeping.h"
@@ -149,7 +150,7 @@ absl::Status HomingServer::State::Listen(const ServerOptions& options) {
   builder.RegisterService(&whole);
   builder.RegisterService(&fleet);
   server = builder.BuildAndStart();
-  const bool is_socket_file = options.listen.rfind("unix:", 0) == 0;
+  const bool is_socket_file = IsUnixSocket(options.listen);
   if (server == nullptr || (port <= 0 && !is_socket_file)) {
     return absl::UnavailableError(absl::StrCat(
         "listen: \"", options.listen, "\" is in use or is not an address of this machine",

@@ -1,4 +1,4 @@
-// HOST:PORT as text.
+// Addresses as text: HOST:PORT and unix:PATH.
 #ifndef HOMING_BASE_HOST_PORT_H_
 #define HOMING_BASE_HOST_PORT_H_
 
@@ -20,6 +20,9 @@ struct HostPort {
   std::string host;
   int port = 0;
 };
+
+// An address "unix:PATH".
+inline bool IsUnixSocket(const std::string& address) { return absl::StartsWith(address, "unix:"); }
 
 // "host:port", "[IPv6]:port". INVALID_ARGUMENT naming `field`: another form, no port, or one
 // outside [`lowest_port`, 65535].

@@ -58,8 +58,7 @@ absl::StatusOr<std::shared_ptr<grpc::ChannelCredentials>> MakeCredentials(
 }  // namespace
 
 absl::Status CheckHealth(const std::string& address, const HealthCheckFiles& files) {
-  const bool is_socket_file = address.rfind("unix:", 0) == 0;
-  if (!is_socket_file) {
+  if (!IsUnixSocket(address)) {
     HOMING_RETURN_IF_ERROR(ParseHostPort("server", address, 1).status());
   }
   ::setenv("GRPC_DNS_RESOLVER", "native", /*overwrite=*/0);

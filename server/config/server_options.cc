@@ -1,5 +1,6 @@
 #include "server/config/server_options.h"
 
+#include "absl/strings/match.h"
 #include "homing/base/field_error.h"
 #include "homing/base/host_port.h"
 #include "homing/base/status_macros.h"
@@ -9,25 +10,18 @@
 namespace homing::server {
 namespace {
 
-// The host in "host:port", without the brackets of IPv6.
-std::string HostOf(const std::string& address) {
-  std::string host = address.substr(0, address.rfind(':'));
-  if (host.size() >= 2 && host.front() == '[' && host.back() == ']') {
-    host = host.substr(1, host.size() - 2);
-  }
-  return host;
-}
-
 bool IsLoopback(const std::string& address) {
-  const std::string host = HostOf(address);
+  if (IsUnixSocket(address)) return true;
+  const auto parsed = ParseHostPort("address", address, 0);
+  if (!parsed.ok()) return false;
+  const std::string& host = parsed->host;
   // A name such as 127.example.org may belong to any machine.
   const bool is_name = host.find_first_not_of("0123456789.") != std::string::npos;
-  return host == "localhost" || host == "::1" || (host.rfind("127.", 0) == 0 && !is_name) ||
-         address.rfind("unix:", 0) == 0;
+  return host == "localhost" || host == "::1" || (absl::StartsWith(host, "127.") && !is_name);
 }
 
 absl::Status CheckListenAddress(const std::string& field, const std::string& address) {
-  if (address.rfind("unix:", 0) == 0) return absl::OkStatus();
+  if (IsUnixSocket(address)) return absl::OkStatus();
   return ParseHostPort(field, address, 0).status();
 }
 
