@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <new>
 
+#include "absl/strings/match.h"
 #include "absl/strings/str_format.h"
 #include "storage/sqlite_status.h"
 
@@ -25,7 +26,7 @@ int FlagsOf(Connection::Access access) {
 
 // As a URI, with its special characters escaped.
 std::string ImmutableUri(const std::string& path) {
-  std::string uri = path.rfind('/', 0) == 0 ? "file://" : "file:";
+  std::string uri = absl::StartsWith(path, "/") ? "file://" : "file:";
   for (const char c : path) {
     const bool plain = c != '%' && c != '?' && c != '#' && c >= ' ' && c <= '~';
     uri += plain ? std::string(1, c)

@@ -1,9 +1,9 @@
 #include "client/source/frame_source.h"
 
 #include <algorithm>
-#include <cctype>
 #include <filesystem>
 
+#include "absl/strings/ascii.h"
 #include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
 #include "client/bag/bag_source.h"
@@ -38,9 +38,7 @@ std::vector<std::string> BagsIn(const std::string& folder) {
 // "0" to "999", unless there is a file of that name.
 bool IsCameraIndex(const std::string& source) {
   std::error_code error;
-  return source.size() <= 3 &&
-         std::all_of(source.begin(), source.end(),
-                     [](unsigned char c) { return std::isdigit(c) != 0; }) &&
+  return source.size() <= 3 && std::all_of(source.begin(), source.end(), absl::ascii_isdigit) &&
          !std::filesystem::exists(source, error);
 }
 

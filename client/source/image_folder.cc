@@ -5,6 +5,7 @@
 #include <array>
 #include <filesystem>
 
+#include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
 #include "client/source/image_names.h"
 #include "client/source/opencv_readers.h"
@@ -62,8 +63,8 @@ absl::StatusOr<std::string> ReadBytes(const std::string& path) {
 
 // The encoding by the first bytes, independent of the file's name.
 std::optional<FrameEncoding> EncodingOf(const std::string& bytes) {
-  if (bytes.rfind("\xff\xd8", 0) == 0) return FrameEncoding::kJpeg;
-  if (bytes.rfind("\x89PNG", 0) == 0) return FrameEncoding::kPng;
+  if (absl::StartsWith(bytes, "\xff\xd8")) return FrameEncoding::kJpeg;
+  if (absl::StartsWith(bytes, "\x89PNG")) return FrameEncoding::kPng;
   return std::nullopt;
 }
 
