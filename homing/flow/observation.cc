@@ -102,6 +102,8 @@ ObservedFlow PassOn(const Observation& observation) {
 
 }  // namespace
 
+absl::Status NoCameraError() { return FieldError("left", "must be set unless right is"); }
+
 ObservationFlow::ObservationFlow(const FlowOptions& options, const DecodeLimits& limits)
     : options_(options), limits_(limits) {}
 
@@ -137,7 +139,7 @@ absl::StatusOr<ObservedFlow> ObservationFlow::Compute(const Observation& observa
     HOMING_RETURN_IF_ERROR(WithSide(CheckCameraSize(checked[side].size, cameras[side]), side));
   }
   if (checked[0].size.area() == 0 && checked[1].size.area() == 0) {
-    return FieldError("left", "must be set unless right is");
+    return NoCameraError();
   }
   // From here on nothing fails, except by cancellation.
   for (std::size_t side = 0; side < 2; ++side) {

@@ -7,6 +7,7 @@
 #include <optional>
 #include <variant>
 
+#include "absl/status/status.h"
 #include "absl/status/statusor.h"
 #include "homing/flow/camera.h"
 #include "homing/flow/flow_tracker.h"
@@ -26,6 +27,9 @@ using CameraView = std::variant<std::monostate, Frame, FlowField>;
 
 // The largest sequence: the numbers after it do not overflow.
 inline constexpr std::int64_t kMostSequence = std::int64_t{1} << 62;
+
+// INVALID_ARGUMENT: an observation or a query without a camera.
+absl::Status NoCameraError();
 
 struct Observation {
   // From 0 to kMostSequence, without gaps.

@@ -36,7 +36,7 @@ absl::StatusOr<InputKind> InputKindOf(const Observation& observation) {
   const InputKind left = KindOf(observation.views[0]);
   const InputKind right = KindOf(observation.views[1]);
   if (left == InputKind::kUnknown && right == InputKind::kUnknown) {
-    return FieldError("left", "must be set unless right is");
+    return NoCameraError();
   }
   if (left != InputKind::kUnknown && right != InputKind::kUnknown && left != right) {
     return FieldError("right", "must be frames or flow vectors, as left is");

@@ -141,7 +141,7 @@ absl::StatusOr<QueryJourneys> LoadQueryJourneys(JourneyCatalog* catalog, const L
   HOMING_ASSIGN_OR_RETURN(const JourneyName pattern, ParseJourneyPattern(query.journey, "journey"));
   HOMING_RETURN_IF_ERROR(Validate(query.match));
   if (query.views[0].index() == 0 && query.views[1].index() == 0) {
-    return FieldError("left", "must be set unless right is");
+    return NoCameraError();
   }
   QueryJourneys journeys;
   HOMING_ASSIGN_OR_RETURN(journeys.robot, MeasureRobot(query, limits));
