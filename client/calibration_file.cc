@@ -33,7 +33,8 @@ absl::StatusOr<std::string> ReadText(const std::string& path) {
   file.read(text.data(), static_cast<std::streamsize>(text.size()));
   text.resize(static_cast<std::size_t>(file.gcount()));
   if (text.empty() || text.size() == kMaxBytes) {
-    return absl::InvalidArgumentError(absl::StrCat(path, " is no calibration file"));
+    return absl::InvalidArgumentError(
+        absl::StrCat(path, " is not a calibration file: it is empty or larger than 1 MiB"));
   }
   return text;
 }
@@ -115,7 +116,7 @@ Json FirstOf(const Json& parent, const std::vector<const char*>& names) {
 std::vector<double> NumbersOf(const Json& node) {
   std::vector<double> values;
   for (const Json& value : node.is_object() ? FirstOf(node, {"data"}) : node) {
-    if (!value.is_number()) throw std::invalid_argument(value.dump() + " is no number");
+    if (!value.is_number()) throw std::invalid_argument(value.dump() + " is not a number");
     values.push_back(value.get<double>());
   }
   return values;

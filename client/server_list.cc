@@ -63,8 +63,9 @@ absl::StatusOr<std::string> ChannelTarget(const std::string& address) {
       return absl::StrCat(family == AF_INET ? "ipv4:" : "ipv6:", absl::StrJoin(numeric, ","));
     }
   }
-  return absl::UnavailableError(absl::StrCat("--server: not all servers of ", address,
-                                             " have an address, or not of one family"));
+  return absl::UnavailableError(
+      absl::StrCat("--server: the servers of ", address,
+                   " must all have an IPv4 address, or all an IPv6 address"));
 }
 
 }  // namespace homing::client

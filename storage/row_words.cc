@@ -6,7 +6,8 @@ namespace homing::storage {
 namespace {
 
 absl::Status UnknownWord(const char* column, const std::string& word) {
-  return absl::DataLossError(absl::StrCat("store: ", column, " is '", word, "'"));
+  return absl::DataLossError(
+      absl::StrCat("store: ", column, " has the unknown value '", word, "'"));
 }
 
 }  // namespace

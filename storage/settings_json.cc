@@ -75,7 +75,7 @@ absl::StatusOr<Result> Parse(const std::string& text, const char* what, Read rea
     return result;
   } catch (const Json::exception& exception) {
     return absl::DataLossError(
-        absl::StrCat("store: ", what, " are not valid JSON of their form: ", exception.what()));
+        absl::StrCat("store: ", what, " are not JSON of the expected form: ", exception.what()));
   }
 }
 

@@ -79,7 +79,8 @@ absl::StatusOr<std::string_view> ChunkedBag::Chunk(std::uint64_t offset) {
 absl::StatusOr<std::string_view> ChunkedBag::BytesInChunk(const MessagePlace& place) {
   HOMING_ASSIGN_OR_RETURN(std::string_view bytes, Chunk(static_cast<std::uint64_t>(place.chunk)));
   const auto offset = static_cast<std::uint64_t>(place.offset);
-  if (offset > bytes.size()) return absl::DataLossError("the index points behind its chunk");
+  if (offset > bytes.size())
+    return absl::DataLossError("the index points beyond the end of its chunk");
   return bytes.substr(offset);
 }
 

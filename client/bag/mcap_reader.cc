@@ -128,7 +128,7 @@ absl::StatusOr<ChunkHead> McapReader::ReadChunkHead(std::uint64_t offset) const 
   if (!reader.ok() || opcode != mcap_opcode::kChunk ||
       record_size < head.records_offset - kHeadBytes ||
       head.records_size > record_size - (head.records_offset - kHeadBytes)) {
-    return absl::DataLossError("its head is damaged");
+    return absl::DataLossError("its header is damaged");
   }
   return head;
 }

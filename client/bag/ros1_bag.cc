@@ -94,7 +94,7 @@ absl::StatusOr<RecordHead> Ros1Bag::ReadHead(std::uint64_t offset) const {
   head.data_size = ByteReader(data_size).Take<std::uint32_t>();
   head.data_offset = offset + kLength + header_size + kLength;
   if (head.data_size > file_.size() - head.data_offset) {
-    return absl::DataLossError("it ends behind the file");
+    return absl::DataLossError("it ends beyond the end of the file");
   }
   header.resize(header_size);
   head.header = std::move(header);

@@ -15,7 +15,7 @@ inline CLI::Validator RealRange(double low, double high) {
   const auto check = [range](std::string& text) {
     std::string error = range(text);
     if (error.empty() && std::isnan(std::strtod(text.c_str(), nullptr))) {
-      error = "Value " + text + " is no number";
+      error = "Value " + text + " is not a number";
     }
     return error;
   };

@@ -21,7 +21,7 @@ absl::StatusOr<SourceFrame> ReadGrayImage(const std::string& path) {
     if (image.depth() != CV_16U) image.convertTo(image, CV_32F);
     image = StretchToGray8(image);
   }
-  if (image.empty()) return absl::InvalidArgumentError(absl::StrCat(path, " is no image"));
+  if (image.empty()) return absl::InvalidArgumentError(absl::StrCat(path, " is not an image"));
   return SourceFrame{FrameEncoding::kGray8, image.cols, image.rows,
                      std::string(reinterpret_cast<const char*>(image.data), image.total())};
 }

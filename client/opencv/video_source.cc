@@ -134,11 +134,11 @@ class VideoSource : public FrameSource {
     if (absl::StrContains(path_, "://")) {
       return absl::NotFoundError(absl::StrCat(
           Shown(path_),
-          " gives no video; check the address, the name and password in it, and the camera"));
+          " sends no video; check the address, the name and password in it, and the camera"));
     }
     return absl::InvalidArgumentError(absl::StrCat(
         path_,
-        " is no readable video or camera; give a video file, a folder of images, or a glob of "
+        " is not a readable video or camera; give a video file, a folder of images, or a glob of "
         "images in quotes"));
   }
 
@@ -165,7 +165,7 @@ class VideoSource : public FrameSource {
     if (live_) {
       std::error_code error;
       if (std::filesystem::is_fifo(path_, error)) return absl::OkStatus();
-      return absl::DataLossError(absl::StrCat(Shown(path_), " gives no more frames"));
+      return absl::DataLossError(absl::StrCat(Shown(path_), " sends no more frames"));
     }
     const double promised = static_cast<double>(promised_);
     const bool by_count = static_cast<double>(next_) >= 0.98 * promised - 2;

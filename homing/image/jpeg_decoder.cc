@@ -98,7 +98,7 @@ bool ReadPixels(Decoder* decoder, unsigned char* pixels, std::size_t step) {
 }
 
 absl::Status JpegError(const Decoder& decoder) {
-  return FieldError("frame.data", absl::StrCat("is no complete JPEG image: ", decoder.message));
+  return FieldError("frame.data", absl::StrCat("is not a complete JPEG image: ", decoder.message));
 }
 
 }  // namespace

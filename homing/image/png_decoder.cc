@@ -24,7 +24,8 @@ struct ContextCloser {
 using Context = std::unique_ptr<spng_ctx, ContextCloser>;
 
 absl::Status PngError(int code) {
-  return FieldError("frame.data", absl::StrCat("is no complete PNG image: ", spng_strerror(code)));
+  return FieldError("frame.data",
+                    absl::StrCat("is not a complete PNG image: ", spng_strerror(code)));
 }
 
 // Decodes to `format`, 8 bits a channel, as `type`; then reads the rest of the file.

@@ -65,7 +65,7 @@ absl::Status JourneyMap::CheckLandmark(const JourneyStep& step, std::size_t inde
   }
   for (std::size_t i = 0; i < index; ++i) {
     if (step.fingerprints[i].fingerprint.landmark == landmark) {
-      return FieldError("landmark", absl::StrCat(landmark, " is twice in step ", step.step));
+      return FieldError("landmark", absl::StrCat(landmark, " appears twice in step ", step.step));
     }
   }
   const auto number = static_cast<std::size_t>(landmark);
