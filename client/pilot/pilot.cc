@@ -8,18 +8,19 @@
 namespace homing::client {
 namespace {
 
-// Commands are remembered so long, s.
+// Commands are kept for this long, s.
 constexpr double kMemoryS = 10;
 // Time constant of the drift, s, and its bound, rad/s.
 constexpr double kDriftS = 1.0;
 constexpr double kMostDrift = 0.3;
-// Turned round: this near, rad; slower from here on.
+// The robot has turned round when the heading error is below kTurnedRound, rad; below kTurnSlowly
+// it turns more slowly.
 constexpr double kTurnedRound = 0.05;
 constexpr double kTurnSlowly = 0.5;
 // How fast the offsets correct the heading, 1/m.
-constexpr double kWatch = 0.25;
+constexpr double kHeadingGain = 0.25;
 constexpr double kLeastSpeedMps = 0.15;
-// Slows down towards home: m/s for each metre left.
+// Greatest speed near home, m/s for each metre left.
 constexpr double kSpeedPerM = 0.5;
 // The last part of the way, m, is driven by the commands: an answer is no better than its
 // tolerance, and the map ends. An answer then corrects the distance only by a fraction of the
@@ -39,7 +40,8 @@ constexpr double kSweepM = 1.5;
 constexpr double kMostSweepM = 6;
 constexpr double kSweepHeading = 0.2;
 constexpr double kSweepPeriodM = 1.5;
-// Lost again before it was sure for so long, m: the next search begins with a longer sweep.
+// A robot that is lost again before it was sure for this distance, m, begins its next search with a
+// longer sweep.
 constexpr double kSureM = 5;
 
 }  // namespace
@@ -79,7 +81,7 @@ Pilot::Belief Pilot::Carried(const Belief& belief, double from_s, double to_s) c
 
 void Pilot::Take(const PilotAnswer& answer) {
   if (answer.sequence <= last_sequence_) return;
-  heard_s_ = last_drive_s_;
+  arrival_time_s_ = last_drive_s_;
   TakeTurn(answer);
   TakePlace(answer);
   last_sequence_ = answer.sequence;
@@ -118,18 +120,18 @@ void Pilot::TakePlace(const PilotAnswer& answer) {
   const Belief expected = Carried(known_, answer_time_s_, answer.time_s);
   is_sure_ = answer.outcome == PilotAnswer::Outcome::kMatch;
   if (state_ == State::kTurningRound || answer.time_s < round_s_) return;
-  const double told_m =
+  const double answered_m =
       answer.progress_home ? (1 - *answer.progress_home) * options_.route_m : expected.remaining_m;
-  const bool is_elsewhere = IsElsewhere(answer, expected.remaining_m - told_m);
+  const bool is_elsewhere = IsElsewhere(answer, expected.remaining_m - answered_m);
   is_sure_ = is_sure_ && !is_elsewhere;
   PilotAnswer here = answer;
   if (is_elsewhere) here.path_offset.reset();
-  Watch(here, expected);
+  CorrectHeading(here, expected);
   known_.offset_m = here.path_offset ? *here.path_offset * options_.distance_m : expected.offset_m;
   const double before_m = std::exchange(known_.remaining_m, expected.remaining_m);
   if (!answer.progress_home || !is_sure_) return;
-  const double off_m = told_m - expected.remaining_m;
-  const bool is_close = told_m < kCloseM && std::abs(off_m) < kCloseM;
+  const double off_m = answered_m - expected.remaining_m;
+  const bool is_close = answered_m < kCloseM && std::abs(off_m) < kCloseM;
   const double driven_m = std::abs(before_m - expected.remaining_m);
   const double gain = is_close ? kCloseGain : 1 - std::exp(-driven_m / kPlaceM);
   known_.remaining_m += (std::abs(off_m) < kJumpM ? gain : 1) * off_m;
@@ -152,28 +154,28 @@ bool Pilot::IsElsewhere(const PilotAnswer& answer, double ahead_m) {
   return elsewhere_from_m_ - known_.remaining_m < kJumpConfirmedM;
 }
 
-// Where the offsets run away from what the heading makes them, the heading is wrong: turns were
-// lost.
-void Pilot::Watch(const PilotAnswer& answer, const Belief& expected) {
+// Integrates the heading to an offset, and compares it with the answered offsets. If the two drift
+// apart, turns were lost, and the heading is wrong.
+void Pilot::CorrectHeading(const PilotAnswer& answer, const Belief& expected) {
   if (!answer.path_offset) {
-    is_watching_ = false;
+    is_integrating_ = false;
     return;
   }
   const double offset_m = *answer.path_offset * options_.distance_m;
-  if (!is_watching_) watched_m_ = offset_m;
-  is_watching_ = true;
-  watched_m_ += expected.offset_m - known_.offset_m;
+  if (!is_integrating_) integrated_m_ = offset_m;
+  is_integrating_ = true;
+  integrated_m_ += expected.offset_m - known_.offset_m;
   // Signed: in reverse a heading moves the robot the other way.
   const double driven_m = Ahead() * (known_.remaining_m - expected.remaining_m);
-  const double off_m = offset_m - watched_m_;
-  watched_m_ += 2 * kWatch * std::abs(driven_m) * off_m;
-  known_.heading += kWatch * kWatch * driven_m * off_m;
+  const double off_m = offset_m - integrated_m_;
+  integrated_m_ += 2 * kHeadingGain * std::abs(driven_m) * off_m;
+  known_.heading += kHeadingGain * kHeadingGain * driven_m * off_m;
 }
 
 PilotCommand Pilot::Drive(double now_s) {
   const double dt = last_drive_s_ < 0 ? 0 : now_s - last_drive_s_;
   last_drive_s_ = now_s;
-  if (heard_s_ < 0) heard_s_ = now_s;
+  if (arrival_time_s_ < 0) arrival_time_s_ = now_s;
   now_ = Carried(known_, answer_time_s_, now_s);
   const double driven = std::abs(motion_.speed_mps) * dt;
   unsure_m_ = is_sure_ ? 0 : unsure_m_ + driven;
@@ -182,7 +184,7 @@ PilotCommand Pilot::Drive(double now_s) {
   if (state_ == State::kTurningRound) {
     command = TurnRound();
   } else if (state_ != State::kHome) {
-    const bool is_late = now_s - heard_s_ > options_.stop_after_s;
+    const bool is_late = now_s - arrival_time_s_ > options_.stop_after_s;
     if (unsure_m_ <= options_.patience_m && now_.remaining_m <= options_.stop_before_m) {
       state_ = State::kHome;
     } else if (is_late) {
@@ -197,7 +199,7 @@ PilotCommand Pilot::Drive(double now_s) {
       command = FollowPath(SpeedFor(now_s));
     }
   }
-  // What the actuators will do until the next call.
+  // Predicts the motion until the next call.
   const double share = options_.lag_s > 0 ? 1 - std::exp(-dt / options_.lag_s) : 1;
   const double kept = 1 - options_.usual_slip;
   motion_.speed_mps += share * (kept * command.speed_mps - motion_.speed_mps);
@@ -223,12 +225,12 @@ PilotCommand Pilot::TurnRound() {
 
 double Pilot::SpeedFor(double now_s) const {
   double speed = options_.most_speed_mps;
-  if (!is_sure_ || now_s - heard_s_ > options_.slow_after_s) speed *= options_.unsure_speed;
+  if (!is_sure_ || now_s - arrival_time_s_ > options_.slow_after_s) speed *= options_.unsure_speed;
   speed = std::min(speed, kSpeedPerM * std::max(0.0, now_.remaining_m));
   return std::max(kLeastSpeedMps, speed * std::cos(std::min(1.2, 2 * std::abs(now_.heading))));
 }
 
-// Heads back to the path, the more the further beside it; in reverse the other way.
+// Heads back to the path, at an angle that grows with the offset; in reverse the other way.
 PilotCommand Pilot::FollowPath(double speed_mps) const {
   const double wanted = std::clamp(-Ahead() * options_.heading_per_m * now_.offset_m,
                                    -options_.most_heading, options_.most_heading);
@@ -236,7 +238,7 @@ PilotCommand Pilot::FollowPath(double speed_mps) const {
   return {Ahead() * speed_mps, std::clamp(rate, -options_.most_turn_rate, options_.most_turn_rate)};
 }
 
-// What stopped it a moment ago is passed by a longer sweep.
+// A search soon after another one sweeps further, to pass the place that stopped the last one.
 void Pilot::BeginSearch() {
   sweep_m_ = sure_m_ < kSureM ? std::clamp(2 * sweep_m_, kSweepM, kMostSweepM) : kSweepM;
   sure_m_ = 0;
@@ -256,8 +258,8 @@ bool Pilot::SweepsBack() const {
   return is_back;
 }
 
-// To and fro along the path as it is carried on, with a heading that swings: one of them is the
-// path's.
+// Drives to and fro along the path as dead reckoning continues it, with a heading that swings: at
+// some point it is that of the path.
 PilotCommand Pilot::Search() const {
   const double ahead = SweepsBack() ? -Ahead() : Ahead();
   const double swing = kSweepHeading * std::sin(2 * std::numbers::pi * searched_m_ / kSweepPeriodM);

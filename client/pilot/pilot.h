@@ -109,10 +109,10 @@ class Pilot {
   // The belief of time `from_s`, advanced to `to_s`.
   Belief Carried(const Belief& belief, double from_s, double to_s) const;
   void TakeTurn(const PilotAnswer& answer);
-  void Watch(const PilotAnswer& answer, const Belief& expected);
+  void CorrectHeading(const PilotAnswer& answer, const Belief& expected);
   void TakePlace(const PilotAnswer& answer);
-  // The answer's place, `ahead_m` nearer to home than the pilot believes, is not where the robot
-  // can have come to.
+  // True if the robot cannot have reached the answer's place, which is `ahead_m` nearer to home
+  // than the pilot believes.
   bool IsElsewhere(const PilotAnswer& answer, double ahead_m);
   PilotCommand TurnRound();
   PilotCommand FollowPath(double speed_mps) const;
@@ -129,14 +129,15 @@ class Pilot {
   Belief known_;
   // Belief now.
   Belief now_;
+  // Time at which the last answer's observation was made, s.
   double answer_time_s_ = 0;
   // Time of the last answer that had a turn, s.
   double turn_time_s_ = 0;
   // Time when the robot had turned round, s.
   double round_s_ = 0;
   std::int64_t last_sequence_ = -1;
-  // Time of the last answer, s; below 0: none yet.
-  double heard_s_ = -1;
+  // Time at which the last answer arrived, s; below 0: none yet.
+  double arrival_time_s_ = -1;
   double last_drive_s_ = -1;
   bool is_sure_ = false;
   // While answers are sure of another place: how far ahead of the believed place it was in the
@@ -151,8 +152,8 @@ class Pilot {
   // First sweep of this search, m.
   double sweep_m_ = 0;
   // Metres left of the path by integration of the heading, kept near the offsets of the answers.
-  double watched_m_ = 0;
-  bool is_watching_ = false;
+  double integrated_m_ = 0;
+  bool is_integrating_ = false;
   // Turn rate that no command caused: slip, and the path's own bends.
   double drift_ = 0;
   // The actuators' present motion.
