@@ -86,23 +86,23 @@ class LoadRobot {
   bool done() const { return call_->done(); }
 
   // Schedules the next observation for `time`.
-  void Due(LoadClock::time_point time) {
+  void Schedule(LoadClock::time_point time) {
     if (!begin_) begin_ = time;
-    due_.push_back(time);
-    SendDue();
+    scheduled_.push_back(time);
+    SendScheduled();
   }
 
   // Nothing more will be scheduled.
   void HalfClose() {
     closing_ = true;
-    SendDue();
+    SendScheduled();
   }
 
   // The socket has data, has room, or was closed.
   void Advance(LoadClock::time_point now, bool hung_up) {
     now_ = now;
     call_->Receive(hung_up);
-    SendDue();
+    SendScheduled();
   }
 
   // Cancels the stream unless it has ended.
@@ -115,12 +115,12 @@ class LoadRobot {
  private:
   explicit LoadRobot(const Requests* requests) : requests_(*requests) {}
 
-  void SendDue() {
-    while (!due_.empty() && call_->sent_all() && !call_->done()) {
+  void SendScheduled() {
+    while (!scheduled_.empty() && call_->sent_all() && !call_->done()) {
       constexpr std::chrono::milliseconds kLate{10};
-      if (LoadClock::now() - due_.front() > kLate) ++counts_.late;
-      waiting_.push_back(due_.front());
-      due_.pop_front();
+      if (LoadClock::now() - scheduled_.front() > kLate) ++counts_.late;
+      waiting_.push_back(scheduled_.front());
+      scheduled_.pop_front();
       const std::string& request =
           requests_[static_cast<std::size_t>(counts_.sent) % requests_.size()];
       // The parts of a message may follow each other: protobuf merges them.
@@ -128,7 +128,7 @@ class LoadRobot {
       call_->Queue(request, numbered_.SerializeAsString());
       call_->Flush();
     }
-    if (closing_ && due_.empty()) {
+    if (closing_ && scheduled_.empty()) {
       closing_ = false;
       call_->HalfClose();
       call_->Flush();
@@ -156,7 +156,7 @@ class LoadRobot {
   // The scheduled time of the first observation.
   std::optional<LoadClock::time_point> begin_;
   // Scheduled times of observations that are not sent, and of those not answered.
-  std::deque<LoadClock::time_point> due_;
+  std::deque<LoadClock::time_point> scheduled_;
   std::deque<LoadClock::time_point> waiting_;
   LoadCounts counts_;
   bool closing_ = false;

@@ -152,7 +152,7 @@ class Drive {
         const std::int64_t robot = next % robots;
         const std::int64_t sent = next / robots - first_of(robot);
         if (sent >= 0 && sent < each) {
-          robots_[static_cast<std::size_t>(robot)]->Due(time_of(next));
+          robots_[static_cast<std::size_t>(robot)]->Schedule(time_of(next));
         }
       }
     }
