@@ -10,7 +10,7 @@ namespace homing {
 
 // Cost of the count codes seen and stored, 0 to 60. A loss of vectors costs less than a gain:
 // landmarks vanish, and poor light hides them.
-constexpr std::uint8_t ShareCost(std::uint8_t seen, std::uint8_t stored) {
+constexpr std::uint8_t CountCost(std::uint8_t seen, std::uint8_t stored) {
   const std::uint8_t common = std::min(seen, stored);
   return static_cast<std::uint8_t>((stored - common) * 3 + (seen - common) * 4);
 }

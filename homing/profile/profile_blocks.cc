@@ -26,7 +26,7 @@ constexpr std::size_t kTile = 16;
 
 // Costs indexed by seen code, then by stored code.
 struct CostTables {
-  alignas(kCodes) std::array<std::array<std::uint8_t, kCodes>, kCodes> share{};
+  alignas(kCodes) std::array<std::array<std::uint8_t, kCodes>, kCodes> count{};
   alignas(kCodes) std::array<std::array<std::uint8_t, kCodes>, kCodes> parallax{};
 };
 
@@ -34,7 +34,7 @@ constexpr CostTables MakeCostTables() {
   CostTables tables;
   for (std::uint8_t seen = 0; seen < kCodes; ++seen) {
     for (std::uint8_t stored = 0; stored < kCodes; ++stored) {
-      tables.share[seen][stored] = ShareCost(seen, stored);
+      tables.count[seen][stored] = CountCost(seen, stored);
       tables.parallax[seen][stored] = ParallaxCost(seen, stored);
     }
   }
@@ -49,7 +49,7 @@ struct Row {
 
 // By cell, the codes of the block's profiles.
 struct Block {
-  std::array<Row, kCells> share;
+  std::array<Row, kCells> count;
   std::array<Row, kCells> parallax;
 };
 
@@ -127,7 +127,7 @@ HOMING_AVX2 void Fill(Profiles stored, Block& block) {
     Transpose(rows);
     for (std::size_t i = 0; i < kTile; ++i) {
       const __m256i codes = rows[i].bytes;
-      block.share[tile + i].bytes = _mm256_and_si256(codes, low);
+      block.count[tile + i].bytes = _mm256_and_si256(codes, low);
       block.parallax[tile + i].bytes = _mm256_and_si256(_mm256_srli_epi16(codes, 4), low);
     }
   }
@@ -141,12 +141,12 @@ HOMING_AVX2 inline __m256i LookUp(const std::uint8_t* costs, const Row& codes) {
 
 template <bool with_parallax>
 HOMING_AVX2 inline __m256i CostOf(const Block& block, const CountedCell& cell) {
-  const __m256i share = LookUp(kCosts.share[cell.codes & 15U].data(), block.share[cell.cell]);
+  const __m256i count = LookUp(kCosts.count[cell.codes & 15U].data(), block.count[cell.cell]);
   if constexpr (with_parallax) {
     const auto& costs = kCosts.parallax[cell.codes >> 4U];
-    return _mm256_add_epi8(share, LookUp(costs.data(), block.parallax[cell.cell]));
+    return _mm256_add_epi8(count, LookUp(costs.data(), block.parallax[cell.cell]));
   }
-  return share;
+  return count;
 }
 
 // Sums of 32 profiles, 16 bits each.

@@ -37,7 +37,7 @@ void PlainProfileDistances(const ProfileView& view, std::span<const FlowProfile>
     const std::uint8_t* const b = stored[i].cells.data();
     std::uint16_t sum = 0;
     for (std::size_t cell = 0; cell < FlowProfile::kCells; ++cell) {
-      const auto cost = static_cast<std::uint8_t>(ShareCost(a[cell] & 15, b[cell] & 15) +
+      const auto cost = static_cast<std::uint8_t>(CountCost(a[cell] & 15, b[cell] & 15) +
                                                   ParallaxCost(a[cell] >> 4, b[cell] >> 4));
       sum = static_cast<std::uint16_t>(sum + (cost & mask[cell]));
     }
