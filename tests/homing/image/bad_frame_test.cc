@@ -98,16 +98,16 @@ std::vector<BadFrame> BadFrames() {
       {"JpegNegativeWidth", kJpeg, -64, 48, Jpeg(), "frame.width: -64 must be"},
       {"JpegClaimsHuge", kJpeg, 0, 0, JpegClaiming(60000, 60000), "frame.width: 60000"},
       {"JpegClaimsMoreRows", kJpeg, 0, 0, JpegClaiming(64, 480), "not a complete JPEG"},
-      {"PngHalf", kPng, 0, 0, Png().substr(0, Png().size() / 2), "no complete PNG"},
-      {"PngWithoutEnd", kPng, 0, 0, Png().substr(0, Png().size() - 12), "no complete PNG"},
-      {"PngHeaderOnly", kPng, 0, 0, Png().substr(0, 33), "no complete PNG"},
-      {"PngEmpty", kPng, 0, 0, "", "no complete PNG"},
-      {"PngIsJpeg", kPng, 0, 0, Jpeg(), "no complete PNG"},
+      {"PngHalf", kPng, 0, 0, Png().substr(0, Png().size() / 2), "not a complete PNG"},
+      {"PngWithoutEnd", kPng, 0, 0, Png().substr(0, Png().size() - 12), "not a complete PNG"},
+      {"PngHeaderOnly", kPng, 0, 0, Png().substr(0, 33), "not a complete PNG"},
+      {"PngEmpty", kPng, 0, 0, "", "not a complete PNG"},
+      {"PngIsJpeg", kPng, 0, 0, Jpeg(), "not a complete PNG"},
       {"PngOtherWidth", kPng, 65, 48, Png(), "frame.width: 65 must be 0 or the image header"},
       {"PngBomb", kPng, 0, 0, PngClaiming(60000, 60000), "frame.width: 60000 must be in"},
       {"PngAreaBomb", kPng, 0, 0, PngClaiming(8192, 8192), "at most 16777216 pixels"},
       {"PngTiny", kPng, 0, 0, PngClaiming(1, 1), "frame.width: 1 must be in"},
-      {"PngClaimsMoreRows", kPng, 0, 0, PngClaiming(64, 480), "no complete PNG"},
+      {"PngClaimsMoreRows", kPng, 0, 0, PngClaiming(64, 480), "not a complete PNG"},
   };
 }
 
