@@ -36,7 +36,7 @@ constexpr const char* kJourneyNames[] = {
 constexpr const char* kModelNames[] = {"SELECT name FROM deviation_models ORDER BY name",
                                        "SELECT name FROM deviation_models ORDER BY name DESC"};
 
-// No server makes another name, or finds the journey or model by it.
+// DATA_LOSS: another form of name. No server writes it, and no request can name it.
 absl::Status CheckName(const std::string& name, std::initializer_list<const char*> collections) {
   const std::vector<std::string> parts = absl::StrSplit(name, '/');
   std::size_t i = 0;

@@ -96,7 +96,7 @@ absl::StatusOr<std::unique_ptr<JourneyStore>> OpenJourneyStore(const StoreOption
   if (path != kInMemory) {
     HOMING_RETURN_IF_ERROR(store->StartCheckpoints(options.busy_timeout_ms));
     store->KeepReserve(std::move(reserve));
-    // On a full disk the next deletion does it.
+    // On a full disk this may fail; the next deletion tries again.
     store->FinishDeletions().IgnoreError();
   }
   return store;

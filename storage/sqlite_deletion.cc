@@ -18,7 +18,7 @@ namespace {
 // milliseconds.
 constexpr std::int64_t kPiece = 4096;
 constexpr std::int64_t kLeastPiece = 64;
-// Of the log, a step, with what the piece changes besides; generous.
+// Upper bound of the log that a deleted step needs, with its part of the other changes.
 constexpr std::int64_t kLogBytesAStep = 1024;
 
 // A longer journey is renamed first (kHiddenPrefix), so that it disappears at once and whole, and
@@ -95,7 +95,7 @@ absl::Status SqliteJourneyStore::DeleteJourney(const std::string& name) {
   bool is_hidden = false;
   absl::Status deleted = DeleteOnce(name, {kPiece, false}, &is_hidden);
   if (!absl::IsResourceExhausted(deleted)) {
-    // Of an earlier deletion that found no room.
+    // Deletes the steps that an earlier deletion left because it found no room.
     FinishDeletions().IgnoreError();
     return deleted;
   }

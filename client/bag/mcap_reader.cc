@@ -20,7 +20,7 @@ namespace {
 constexpr std::uint64_t kHeadBytes = 9;
 // Channel, sequence number and two times before a message's bytes.
 constexpr std::uint64_t kMessageHeadBytes = 22;
-// More than the bytes of a chunk before its records.
+// Upper bound of the bytes of a chunk before its records.
 constexpr std::uint64_t kChunkHeadBytes = 256;
 
 struct ChunkHead {

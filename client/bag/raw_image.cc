@@ -21,7 +21,7 @@ enum class Layout { kGray8, kGray16, kRgb, kBgr, kBayer };
 struct Encoding {
   const char* name;
   Layout layout;
-  // Bytes from pixel to pixel, and before the first one that counts.
+  // Bytes of a pixel, and those before the first byte that is used.
   std::uint32_t pixel_bytes;
   std::uint32_t skip = 0;
   int bayer_code = 0;

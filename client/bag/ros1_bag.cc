@@ -76,7 +76,7 @@ class Ros1Bag : public ChunkedBag {
  private:
   absl::StatusOr<RecordHead> ReadHead(std::uint64_t offset) const;
   absl::Status TakeRecord(const RecordHead& head, std::uint64_t offset);
-  // Says where the index behind the chunks begins.
+  // Reports a bag that was not closed, or ends before its index.
   void TakeBagHeader(const Fields& fields);
   void TakeConnection(const Fields& fields, std::string_view data);
   absl::Status TakeIndex(const Fields& fields, std::string_view data);

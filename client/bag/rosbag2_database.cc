@@ -18,12 +18,12 @@ namespace homing::client::bag {
 namespace {
 
 constexpr char kZstdMagic[] = "\x28\xb5\x2f\xfd";
-// Of SQLite's files, and where the number of pages is in it.
+// Size of the header of SQLite's files, and the offset of the number of pages in it.
 constexpr std::uint64_t kHeadBytes = 100;
 constexpr std::uint64_t kPageCountOffset = 28;
 
-// The file as one that does not change: SQLite then writes nothing beside it, which a read-only
-// folder would not allow. Not so while files beside it show that somebody writes to it.
+// Opens the file as immutable: SQLite then writes nothing beside it, which a read-only folder would
+// not allow. Opens it normally while a log beside it shows that another program writes to it.
 std::string UriOf(const std::string& path) {
   std::error_code error;
   const bool in_use = std::filesystem::exists(path + "-wal", error) ||

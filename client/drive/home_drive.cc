@@ -65,7 +65,7 @@ class Drive {
     return point;
   }
 
-  // What happens to the robot on the way.
+  // Carries the robot away, and breaks the link, where the options say so.
   absl::Status Disturb() {
     const double driven_m = options_.pilot.route_m - route_.Nearest(robot_.pose().position);
     if (!is_carried_ && options_.carried_at_m >= 0 && driven_m >= options_.carried_at_m) {
@@ -95,7 +95,7 @@ class Drive {
     return answer;
   }
 
-  // Until the next frame, with the answers that arrive meanwhile.
+  // Drives until the next frame; the pilot gets the answers that arrive meanwhile.
   void DriveFor(double seconds, DrivenPoint& point) {
     const long commands = std::max(1L, std::lround(seconds / kCommandS));
     for (long i = 0; i < commands; ++i) {

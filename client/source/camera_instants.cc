@@ -18,7 +18,7 @@ constexpr double kNanoseconds = 1e9;
 // Rates that differ by a smaller fraction count as equal.
 constexpr double kSameRate = 0.01;
 
-// Empty if there is no number, or one that only a damaged header gives.
+// Empty if the number of frames is unknown, or so large that the header must be damaged.
 FrameKeys TimesAtRate(const FrameSource& camera) {
   constexpr std::int64_t kMost = 10'000'000;
   FrameKeys keys{FrameKeys::Kind::kTime, {}};

@@ -197,8 +197,8 @@ Fit SolveRobustly(const System& system) {
 
 // Weighted least squares on the vertical components alone.
 void FitVertical(const System& system, const std::vector<double>& weights, RotationFit& fit) {
-  // The sums of the normal equations, apart: as parts of a matrix each would be written to memory
-  // and read again at once, in pairs, for which the processor waits.
+  // The sums of the normal equations are separate variables: a matrix would be written to memory
+  // and read again for each vector, and the processor would wait for it.
   double aa = kDamping, bb = kDamping, cc = kDamping, ab = 0, ac = 0, bc = 0;
   double av = 0, bv = 0, cv = 0, squares = 0, sum = 0;
   for (std::size_t i = 0; i < system.size; ++i) {

@@ -8,7 +8,8 @@ namespace homing {
 namespace {
 
 constexpr int kMaxSteps = 30;
-// Far below a float pixel, focal lengths being under 1e6 px.
+// Accuracy of the inverse, focal lengths: far finer than a pixel in float, since focal lengths are
+// below 1e6 px.
 constexpr double kTolerance = 1e-11;
 
 // (1 + k1 r2 + k2 r2^2 + k3 r2^3) / (1 + k4 r2 + k5 r2^2 + k6 r2^3), and its derivative by r2.

@@ -11,7 +11,7 @@
 namespace homing {
 namespace {
 
-// Of the vertical flow, pixels: at first, and at least.
+// Noise of the vertical flow, pixels: in the first pass, and at least.
 constexpr double kFirstNoisePx = 1.0;
 constexpr double kLeastNoisePx = 0.1;
 
@@ -41,13 +41,14 @@ std::vector<Point> PointsOf(const FlowField& field, const Camera& camera, double
 VerticalTurn ReadVerticalTurn(const FlowField& field, const Camera& camera) {
   const double focal = camera.intrinsics ? camera.intrinsics->focal_x : UsualFocal(field.width);
   const std::vector<Point> points = PointsOf(field, camera, focal);
-  // v = turn x y + tilt (1 + y^2) - roll x, in focal lengths; then again without what lies far
-  // off.
+  // Fits v = turn x y + tilt (1 + y^2) - roll x, in focal lengths; then again without the vectors
+  // that lie more than three deviations off.
   Eigen::Vector3d fit = Eigen::Vector3d::Zero();
   double noise = kFirstNoisePx / focal;
   for (int pass = 0; pass < 3; ++pass) {
-    // The sums of the normal equations, apart: as parts of a matrix each would be written to memory
-    // and read again at once, as pairs, which takes the processor five times as long.
+    // The sums of the normal equations are separate variables, as in FitVertical of
+    // rotation_fit.cc: a matrix would be written to memory and read again for each vector, which
+    // takes five times as long.
     double aa = 1e-9, bb = 1e-9, cc = 1e-9, ab = 0, ac = 0, bc = 0, av = 0, bv = 0, cv = 0;
     double squares = 0;
     std::size_t used = 0;

@@ -1,5 +1,5 @@
-// The turn that the vertical flow shows: driving along the heading moves nothing up or down in
-// cameras that look across, a turn does.
+// Measures the turn by the vertical flow. In cameras that look across, a turn moves points up or
+// down; driving along the heading does not.
 #ifndef HOMING_FLOW_VERTICAL_TURN_H_
 #define HOMING_FLOW_VERTICAL_TURN_H_
 

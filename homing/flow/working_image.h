@@ -13,7 +13,8 @@ namespace homing {
 // Grey levels of the normalised 8-bit image for one local deviation; a local mean is 128.
 inline constexpr double kLevelsPerDeviation = 40;
 
-// Working size over source size, by axis; and between pixel centres of the two images.
+// Working size over source size, by axis. Converts points between the two images: pixel centres
+// have whole numbers in both.
 struct WorkingScale {
   double x = 1;
   double y = 1;

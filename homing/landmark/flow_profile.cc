@@ -99,7 +99,7 @@ class CellAdder {
   float all_log_flow_ = 0;
 };
 
-// What turns the sums into codes.
+// Factors that convert the sums to codes.
 struct CodeScale {
   // Part of the vectors for a unit of weight.
   float per_weight = 1;
@@ -200,7 +200,7 @@ FlowProfile ProfileMaker::Make(double magnification, double shift) const {
     return profile;
   }
   profile.odometer = odometer_;
-  // Part of this image that the changed one fills.
+  // Fraction of the changed image that this image fills.
   const auto filled =
       static_cast<float>(std::min(1.0, magnification * magnification) * (1 - std::abs(shift)));
   const CodeScale scale = {

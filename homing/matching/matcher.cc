@@ -20,10 +20,10 @@ namespace {
 
 // Twice the rounding error of a bound's product in float.
 constexpr float kProductRounding = 1e-6F;
-// Candidates kept before they are computed: 20 MB. Pairs of a query with a low threshold may be far
-// more than the stored fingerprints.
+// Candidates kept before they are computed: 20 MB. A query with a low threshold may have far more
+// pairs than there are stored fingerprints.
 constexpr std::size_t kMostCandidates = std::size_t{1} << 19;
-// A P_T that some landmarks of a journey mostly reach.
+// In most queries some landmarks of a journey reach this P_T.
 constexpr double kMuchAlike = 0.5;
 
 MeanAndCount Of(const SeenLandmark& seen) {

@@ -28,9 +28,9 @@ SurvivalBound::SurvivalBound(const DeviationModel& model) : table_{}, least_{} {
   }
 }
 
-float SurvivalBound::ReachOf(double share) const {
-  const auto beyond =
-      std::ranges::partition_point(table_, [share](float most) { return double{most} >= share; });
+float SurvivalBound::ReachOf(double probability) const {
+  const auto beyond = std::ranges::partition_point(
+      table_, [probability](float most) { return double{most} >= probability; });
   return beyond == table_.end()
              ? std::numeric_limits<float>::infinity()
              : std::bit_cast<float>((kFirst + static_cast<std::int32_t>(beyond - table_.begin()))

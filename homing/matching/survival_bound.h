@@ -25,8 +25,8 @@ class SurvivalBound {
   float LeastAt(float squared_px) const {
     return least_[static_cast<std::size_t>(IndexOf(squared_px))];
   }
-  // The squared distance, px^2, from which on At is less than `share`.
-  float ReachOf(double share) const;
+  // The squared distance, px^2, from which on At is less than `probability`.
+  float ReachOf(double probability) const;
   // Index of At's table entry, for loops over many distances.
   static std::int32_t IndexOf(float squared_px) {
     // The bits of a float that is not negative grow with it.

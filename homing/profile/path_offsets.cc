@@ -7,7 +7,8 @@
 namespace homing {
 namespace {
 
-// Deviation of the offset from the outbound path, and the probability a step of another one.
+// Standard deviation of the offset before anything was seen, and the probability that the offset
+// changes at an observation.
 constexpr double kOffsetDeviation = 0.2;
 constexpr double kOffsetChange = 0.05;
 

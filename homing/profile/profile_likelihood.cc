@@ -7,10 +7,11 @@
 namespace homing {
 namespace {
 
-// Stored profiles that are sampled to estimate the distance to different places; at most twice as
-// many are used.
+// Stored profiles that are sampled, evenly, to estimate the distance to different places: this many
+// to twice as many, or all of a smaller map.
 constexpr std::int64_t kSamples = 256;
-// A less probable offset is tried only now and then, once the place is known.
+// Once the place is known, offsets that are less probable than this take turns: one at each
+// observation.
 constexpr double kLeastOffset = 0.05;
 
 bool IsEnough(const std::optional<ProfileMaker>& seen) {

@@ -65,8 +65,8 @@ double Roughness(std::span<const FlowProfile> profiles, Value value) {
 int LengthOf(const OdometerReading& reading) { return reading.length_code; }
 int SpreadOf(const OdometerReading& reading) { return reading.spread_code; }
 
-// Mean over the neighbours, weighed by a Gaussian of kReadingSteps steps; where none has a reading,
-// the median of all.
+// Mean over the neighbours, weighted by a Gaussian of kReadingSteps steps; where none has a
+// reading, the median of all.
 std::vector<std::int16_t> UsualReadings(std::span<const FlowProfile> profiles,
                                         const CameraOdometer& odometer) {
   std::vector<std::int16_t> readings;

@@ -72,7 +72,7 @@ struct RouteScale {
   std::int64_t step_count = 0;
   // Empty for a side without profiles.
   std::array<std::optional<SideScale>, 2> sides;
-  // Lag at which the likeness of neighbours has halved, steps. At least 1.
+  // Lag at which the similarity of neighbours has halved, steps. At least 1.
   double correlation_steps = 1;
   // Deviation of the noise of log2(flow now / flow stored), octaves.
   double odometer_noise = 0;

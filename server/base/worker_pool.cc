@@ -10,8 +10,8 @@
 namespace homing::server {
 namespace {
 
-// A worker takes another stream after so many tasks of one, or after so long: a stream that sends
-// much again after a broken link does not hold up those that send one observation at a time.
+// A worker takes another stream after this many tasks of one, or after this time: a stream that
+// sends much again after a broken link does not hold up those that send one observation at a time.
 constexpr int kTasksATurn = 8;
 constexpr std::chrono::milliseconds kTurn{2};
 

@@ -205,7 +205,7 @@ void FleetBoard::Watch(const std::string& robot, const std::weak_ptr<FleetWatche
   pulse_.NotifyAll();
 }
 
-// Of a robot that does nothing, nobody else removes them.
+// Publish removes the old watchers of a robot that changes; those of an idle robot would stay.
 void FleetBoard::RemoveOldWatchers() {
   std::size_t left = 0;
   for (auto i = watchers_.begin(); i != watchers_.end();) {

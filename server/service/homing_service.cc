@@ -11,8 +11,8 @@ namespace homing::server {
 
 namespace {
 
-// A robot sees at most two landmarks a camera. More take as much longer, on a long map for many
-// seconds: robots do not wait for them.
+// A robot sees at most two landmarks a camera. The time of a query grows with their number, on a
+// long map to many seconds: queries of more run beside the robots' workers.
 constexpr int kUsualFingerprints = 8;
 
 bool IsLong(const v1::MatchLandmarksRequest& request) {

@@ -28,10 +28,10 @@ constexpr char kVersion = 2;
 constexpr char kVersionBefore = 1;
 constexpr std::size_t kHeaderBytes = kMagic.size() + 1;
 constexpr std::size_t kChecksumBytes = 4;
-// Twenty hours at thirty frames a second. Steps without fingerprints take no room in the file, but
-// a hundred bytes each while a robot localises on them.
 // Steps read between two checks for cancellation.
 constexpr std::int64_t kStepsBetweenChecks = 10'000;
+// Eighteen hours at thirty steps a second. Steps without fingerprints take no room in the file, but
+// a hundred bytes each while a robot localises on them.
 constexpr std::int64_t kMostImportedSteps = 2'000'000;
 
 absl::Status Damaged(const std::string& what) {

@@ -21,8 +21,8 @@ namespace homing::storage::postgres {
 namespace {
 
 constexpr int kBinary = 1;
-// For one of the hosts to answer, at most: a machine that is cut off answers nothing. libpq takes
-// no less.
+// Longest time for one of the hosts to answer, s: a machine that is cut off never answers. libpq
+// accepts no smaller value.
 constexpr char kHostSeconds[] = "2";
 
 std::string Trimmed(const char* message) {
