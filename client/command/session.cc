@@ -84,7 +84,8 @@ void AddCommonFlags(CLI::App& app, Session& session) {
   app.add_option("--traceparent", connection.traceparent,
                  "W3C trace that the calls belong to; otherwise a new one")
       ->envname("TRACEPARENT");
-  app.add_flag("--insecure", connection.insecure, "Send the token in plain text off this machine");
+  app.add_flag("--insecure", connection.insecure,
+               "Allow the token to leave this machine in plain text");
   app.add_option_function<double>(
          "--retry-seconds",
          [&connection](const double& seconds) {

@@ -111,7 +111,9 @@ void AddTopCommand(CLI::App& app, Session& session) {
   CLI::App& command = *app.add_subcommand(
       "top", "Show the robots and their activity, lost ones first, as it changes");
   auto once = std::make_shared<bool>(false);
-  command.add_flag("--once", *once, "Print the present state and end, as into a pipe");
+  command.add_flag(
+      "--once", *once,
+      "Print the present state and end; the default where stdout is not a terminal, unless --json");
   command.callback([once, &session] {
     session.run = [once, &session] {
       const bool follow = !*once && (session.json || ::isatty(STDOUT_FILENO) == 1);

@@ -34,19 +34,20 @@ void AddGeometry(CLI::App& command, v1::TrainingSettings& settings) {
   AddNumber(command, settings, "--focal", "Focal length, pixels [277]", &Settings::set_focal_px);
   AddNumber(command, settings, "--velocity", "Mean velocity, km/h [4]",
             &Settings::set_velocity_mean_kmh);
-  AddNumber(command, settings, "--velocity-deviation", "Its deviation, km/h [1]",
-            &Settings::set_velocity_deviation_kmh);
+  AddNumber(command, settings, "--velocity-deviation",
+            "Standard deviation of the velocity, km/h [1]", &Settings::set_velocity_deviation_kmh);
   AddNumber(command, settings, "--distance", "Mean distance, m [11]",
             &Settings::set_distance_mean_m);
-  AddNumber(command, settings, "--distance-deviation", "Its deviation, m [3]",
+  AddNumber(command, settings, "--distance-deviation", "Standard deviation of the distance, m [3]",
             &Settings::set_distance_deviation_m);
-  AddNumber(command, settings, "--lateral", "Point's offset along the travel at t = 0, m",
+  AddNumber(command, settings, "--lateral",
+            "Offset of the point along the travel at t = 0, m [2.75]",
             &Settings::set_lateral_offset_m);
-  AddNumber(command, settings, "--vertical", "Point's vertical offset, m",
+  AddNumber(command, settings, "--vertical", "Vertical offset of the point, m [0.5]",
             &Settings::set_vertical_offset_m);
-  AddNumber(command, settings, "--elapsed", "When the vector is observed, s",
+  AddNumber(command, settings, "--elapsed", "Time at which the vector is observed, s [1.1]",
             &Settings::set_elapsed_s);
-  AddNumber(command, settings, "--interval", "Time between its two frames, s",
+  AddNumber(command, settings, "--interval", "Time between its two frames, s [0.1]",
             &Settings::set_frame_interval_s);
 }
 

@@ -44,7 +44,8 @@ ManPage Page() {
 
 CLI::App* AddCertsCommand(CLI::App* app, CertificateOrder* order) {
   CLI::App* certs = app->add_subcommand(
-      "certs", "Make a certificate authority, the server's certificate and robots'");
+      "certs",
+      "Make a certificate authority, and certificates of the server, robots and operators");
   certs->add_option("--out", order->folder, "Folder; an authority in it is used again")->required();
   certs->add_option("--robot", order->robots, "Id of a robot; may be repeated");
   certs->add_option("--operator", order->operators, "Id of an operator; may be repeated");
@@ -66,7 +67,8 @@ CLI::App* AddTokenCommand(CLI::App* app, TokenOrder* order) {
       "token", "Make a token: its hash goes into the file of --tokens, the token into --out");
   token->fallthrough();
   token->add_option("identity", order->identity, "robots/ID or operators/ID")->required();
-  token->add_option("--out", order->out, "File for the token, for the robot")->required();
+  token->add_option("--out", order->out, "File to write the token to; give it to the robot")
+      ->required();
   return token;
 }
 
@@ -107,7 +109,8 @@ void ApplyFile(const std::string& path, CLI::App* app) {
 CLI::App* AddHealthCheck(CLI::App* app, ServerCommand* command) {
   CLI::App* health = app->add_subcommand("healthcheck", "Exit 0 if a server is serving, else 1");
   health->fallthrough();
-  health->add_option("--server", command->health_server, "Address; by default that of --listen");
+  health->add_option("--server", command->health_server,
+                     "Address of the server; by default that of --listen");
   health
       ->add_option("--ca", command->health_ca,
                    "CA of the server's certificate, PEM: use TLS; by default the certificate of "
@@ -140,7 +143,7 @@ int ReportError(const std::string& message) {
 
 ServerCommand ParseCommandLine(int argc, const char* const* argv) {
   ServerCommand command;
-  // Metrics are on by default; then a port that is in use must not stop the server.
+  // The console is on by default; then a port that is in use must not stop the server.
   command.options.http = kDefaultHttp;
   CLI::App app("Localisation server for robots: records journeys and recognises the way home.",
                "homing-server");
@@ -150,7 +153,8 @@ ServerCommand ParseCommandLine(int argc, const char* const* argv) {
   app.add_option("--config", config, "TOML file; its keys are the names of these flags")
       ->check(CLI::ExistingFile)
       ->envname("HOMING_CONFIG");
-  app.add_flag("--check-config", check_config, "Check options and end");
+  app.add_flag("--check-config", check_config,
+               "Check the options, print the values that the server would use, and end");
   app.set_version_flag("--version", "homing-server " HOMING_VERSION);
   CLI::App* health = AddHealthCheck(&app, &command);
   const StoreCommands store(&app, &command);

@@ -47,8 +47,8 @@ const std::array kOptions = {
                  "Interval at which certificates, tokens and roles are read again, s", 1, 3600,
                  "s"},
     ServerOption{"max-streams", HOMING_OPTION(limits.max_streams),
-                 "Open streams; 0 is no limit, here and for the other limits", 0, kMaxCount,
-                 "streams", false, true},
+                 "Open streams; 0: no limit, as for the max-robot-... limits and max-database", 0,
+                 kMaxCount, "streams", false, true},
     ServerOption{"max-robot-streams", HOMING_OPTION(limits.max_robot_streams),
                  "Open streams of one robot", 0, kMaxCount, "streams", false, true},
     ServerOption{"max-robot-rate", HOMING_OPTION(limits.max_robot_rate),
@@ -60,13 +60,14 @@ const std::array kOptions = {
                  "Stored bytes of one robot", 0, kMaxBytes, "bytes", false, true},
     ServerOption{"max-database", HOMING_OPTION(limits.max_database), "Size of the database", 0,
                  kMaxBytes, "bytes", false, true},
-    ServerOption{
-        "memory-quota", HOMING_OPTION(limits.memory_quota),
-        "Memory of messages in transit; as much again each for imports, exports and beliefs",
-        std::int64_t{16} << 20, std::int64_t{1} << 40, "bytes", true, true},
+    ServerOption{"memory-quota", HOMING_OPTION(limits.memory_quota),
+                 "Memory of messages in transit; as much again each for imports, exports, unread "
+                 "answers and "
+                 "beliefs; 0: no limit",
+                 std::int64_t{16} << 20, std::int64_t{1} << 40, "bytes", true, true},
     ServerOption{"idle-stream-s", HOMING_OPTION(limits.idle_stream_s),
-                 "A stream without traffic for this long is closed, s", 0, 86'400, "s", false,
-                 true},
+                 "A stream without traffic for this long is closed, s; 0: never", 0, 86'400, "s",
+                 false, true},
     ServerOption{"keepalive-s", HOMING_OPTION(limits.keepalive_s),
                  "A connection without traffic for this long is probed, s", 1, 3600, "s", false,
                  true},
@@ -121,6 +122,20 @@ bool IsNumber(const Value& value) {
   return std::holds_alternative<int*>(value) || std::holds_alternative<std::int64_t*>(value);
 }
 
+// As --help shows it: a whole number of GiB or MiB as such, nothing for a flag.
+std::string DefaultText(const ServerOption& option, const Value& value) {
+  if (const auto* text = std::get_if<std::string*>(&value)) return **text;
+  if (!IsNumber(value)) return "";
+  const std::int64_t number = NumberOf(value);
+  constexpr std::int64_t kMiB = std::int64_t{1} << 20;
+  if (std::string(option.unit) != "bytes" || number == 0 || number % kMiB != 0) {
+    return absl::StrCat(number);
+  }
+  const std::int64_t mebibytes = number / kMiB;
+  return mebibytes % 1024 == 0 ? absl::StrCat(mebibytes / 1024, "GiB")
+                               : absl::StrCat(mebibytes, "MiB");
+}
+
 std::string TomlValue(const Value& value) {
   if (const auto* text = std::get_if<std::string*>(&value)) {
     return absl::StrCat("\"", absl::CEscape(**text), "\"");
@@ -146,6 +161,7 @@ void AddServerOptions(CLI::App* app, ServerOptions* options) {
           }
         },
         value);
+    added->default_str(DefaultText(option, value));
     added->envname("HOMING_" +
                    absl::AsciiStrToUpper(absl::StrReplaceAll(option.name, {{"-", "_"}})));
     if (std::string(option.unit) == "bytes") {
