@@ -112,7 +112,7 @@ struct HomingServer::State {
         journeys(core.get()),
         homing(core.get()),
         models(core.get()),
-        whole(core.get()),
+        backup(core.get()),
         fleet(core.get()) {}
 
   absl::Status Listen(const ServerOptions& options);
@@ -123,7 +123,7 @@ struct HomingServer::State {
   JourneyServiceHandler journeys;
   HomingServiceHandler homing;
   DeviationModelServiceHandler models;
-  StoreServiceHandler whole;
+  StoreServiceHandler backup;
   FleetServiceHandler fleet;
   std::unique_ptr<grpc::Server> server;
   // Must end before `server`, whose health it sets.
@@ -147,7 +147,7 @@ absl::Status HomingServer::State::Listen(const ServerOptions& options) {
   builder.RegisterService(&journeys);
   builder.RegisterService(&homing);
   builder.RegisterService(&models);
-  builder.RegisterService(&whole);
+  builder.RegisterService(&backup);
   builder.RegisterService(&fleet);
   server = builder.BuildAndStart();
   const bool is_socket_file = IsUnixSocket(options.listen);

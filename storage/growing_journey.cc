@@ -122,6 +122,24 @@ absl::Status Grow(GrowingJourney& journey, const JourneyAppend& append, const Si
   return absl::OkStatus();
 }
 
+void GrowRecord(JourneyRecord& record, const JourneyAppend& append) {
+  record.next_sequence = append.sequence + 1;
+  record.resend_from = append.resend_from;
+  if (append.input != InputKind::kUnknown) record.input = append.input;
+  if (append.settings) record.settings = *append.settings;
+  if (!append.step) return;
+  const JourneyStep& step = *append.step;
+  record.step_count = std::max(record.step_count, step.step + 1);
+  record.fingerprint_count += static_cast<std::int64_t>(step.fingerprints.size());
+  for (const RecordedFingerprint& recorded : step.fingerprints) {
+    record.landmark_count = std::max(record.landmark_count, recorded.fingerprint.landmark + 1);
+  }
+  if (append.capture_time_ns != 0) {
+    record.end_time_ns = append.capture_time_ns;
+    if (record.start_time_ns == 0) record.start_time_ns = append.capture_time_ns;
+  }
+}
+
 void MarkWritten(GrowingJourney& journey) {
   journey.first_time_ns = 0;
   journey.last_time_ns = 0;

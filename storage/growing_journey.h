@@ -50,6 +50,9 @@ using SideFinder =
 // INVALID_ARGUMENT (the step does not continue the journey), DATA_LOSS.
 absl::Status Grow(GrowingJourney& journey, const JourneyAppend& append, const SideFinder& find);
 
+// Makes the same changes in a record in memory. REQUIRES: the append was stored.
+void GrowRecord(JourneyRecord& record, const JourneyAppend& append);
+
 // Call it after the journey's row was written.
 void MarkWritten(GrowingJourney& journey);
 

@@ -1,6 +1,5 @@
 #include "server/catalog/live_journey.h"
 
-#include <algorithm>
 #include <utility>
 
 #include "absl/strings/str_cat.h"
@@ -8,19 +7,9 @@
 #include "homing/base/status_macros.h"
 #include "server/catalog/fleet_index.h"
 #include "server/catalog/journey_errors.h"
+#include "storage/growing_journey.h"
 
 namespace homing::server {
-namespace {
-
-void CountStep(const JourneyStep& step, storage::JourneyRecord* record) {
-  record->step_count = std::max(record->step_count, step.step + 1);
-  record->fingerprint_count += static_cast<std::int64_t>(step.fingerprints.size());
-  for (const RecordedFingerprint& f : step.fingerprints) {
-    record->landmark_count = std::max(record->landmark_count, f.fingerprint.landmark + 1);
-  }
-}
-
-}  // namespace
 
 LiveJourney::LiveJourney(storage::JourneyRecord record, storage::JourneyStore* store,
                          FleetIndex* index)
@@ -132,21 +121,9 @@ void LiveJourney::EndAppend(const storage::JourneyAppend& append, const absl::St
   {
     const MutexLock lock(mutex_);
     if (status.ok()) {
-      record_.next_sequence = append.sequence + 1;
-      record_.resend_from = append.resend_from;
-      record_.input = append.input;
-      // As in the store: an observation without a step does not change the times.
-      if (append.step && append.capture_time_ns != 0) {
-        record_.start_time_ns =
-            record_.start_time_ns == 0 ? append.capture_time_ns : record_.start_time_ns;
-        record_.end_time_ns = append.capture_time_ns;
-      }
-      if (append.settings) {
-        record_.settings = *append.settings;
-        settings_changed_ = true;
-      }
+      storage::GrowRecord(record_, append);
+      settings_changed_ = settings_changed_ || append.settings.has_value();
       if (append.step) {
-        CountStep(*append.step, &record_);
         if (map_state_ != MapState::kNone) pending_.push_back(*append.step);
         if (index_ != nullptr) indexed = record_.settings;
       }
