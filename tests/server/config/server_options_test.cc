@@ -92,6 +92,16 @@ TEST_F(ServerOptionsTest, HelpAndVersionExitWithZero) {
   EXPECT_EQ(Parse({"--version"}).exit_code, 0);
 }
 
+TEST_F(ServerOptionsTest, HelpShowsDefaults) {
+  testing::internal::CaptureStdout();
+  Parse({"--help"});
+  const std::string help = testing::internal::GetCapturedStdout();
+  EXPECT_THAT(help, testing::AllOf(HasSubstr("--listen TEXT=127.0.0.1:50551 "),
+                                   HasSubstr("--http TEXT=127.0.0.1:8080 "),
+                                   HasSubstr("--reload-s INT=5 "), HasSubstr("=16MiB "),
+                                   HasSubstr("=1GiB "), HasSubstr("--tls-cert TEXT ")));
+}
+
 TEST_F(ServerOptionsTest, HealthIsAskedWhereTheServerListensUnlessSaidOtherwise) {
   ServerCommand command = Parse({"healthcheck", "--listen", "127.0.0.1:7"});
   EXPECT_EQ(command.action, ServerCommand::Action::kHealthCheck);
