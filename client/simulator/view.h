@@ -30,7 +30,7 @@ struct Tilt {
   double roll = 0;
 };
 
-// Rays of a tilted camera in the coordinates of the upright one: surfaces are seen in these.
+// Rays of a tilted camera in the coordinates of the upright one, which shapes are viewed in.
 // Immutable.
 class PixelRays {
  public:
@@ -40,7 +40,7 @@ class PixelRays {
     const Ray ray = RayAt(x, y);
     return is_tilted_ ? Turned(tilt_, ray) : ray;
   }
-  // The ray's pixel if the camera were upright is that of this ray.
+  // A ray of the upright camera in the coordinates of the tilted one: the reverse of At.
   Ray Untilted(const Ray& ray) const { return is_tilted_ ? Turned(tilt_.t(), ray) : ray; }
   bool is_tilted() const { return is_tilted_; }
 

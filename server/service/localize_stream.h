@@ -29,7 +29,7 @@ class LocalizeStream final : public BidiStream<v1::LocalizeRequest, v1::Localize
   // Reports the answer to the watchers of the fleet.
   void Report(const v1::LocalizeResponse& answer, int journey);
 
-  // Of the requests read: the next one loads the maps.
+  // The next request that is read loads the maps of a wildcard.
   bool loads_maps_ = false;
   std::unique_ptr<LocalizationSession> session_;
   // Null: the stream belongs to no robot.

@@ -30,7 +30,7 @@ absl::Status RecordStream::Handle(const v1::RecordJourneyRequest& request) {
 absl::Status RecordStream::Begin(const v1::RecordingConfig& config) {
   HOMING_RETURN_IF_ERROR(call().Authorize(config.journey()));
   HOMING_RETURN_IF_ERROR(core()->quota.CheckGrowth(config.journey()));
-  // The board keeps the names of robots.
+  // Checks the name first, because the board keeps the names of robots.
   HOMING_RETURN_IF_ERROR(ParseJourneyName(config.journey(), "config.journey").status());
   journey_ = config.journey();
   const std::weak_ptr<BidiStream> weak = weak_from_this();
