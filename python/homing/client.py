@@ -55,7 +55,7 @@ class _Link:
 
 
 class _Sender:
-    """The outbox and the source that fills it. An old link and its successor may both ask."""
+    """The outbox and the source that fills it. The streams of an old and a new link may both read it."""
 
     def __init__(self, source: Iterable[Seen], outbox: Outbox):
         self._source = iter(source)
@@ -131,8 +131,8 @@ class Client:
                live: bool = False, left_camera: Optional[Camera] = None,
                right_camera: Optional[Camera] = None, model: str = "", window: int = 32,
                finish: bool = True) -> Iterator[Recorded]:
-        """Records a journey; gives an answer for each observation once it is durable. What became
-        durable just before the link broke has no answer.
+        """Records a journey; gives an answer for each observation once it is durable. Observations that
+        became durable just before the link broke have no answer.
 
         A broken link is restored. When the program runs again with the same writer, it continues where
         it stopped: the observations that the server has are left out, or, with `live`, new ones

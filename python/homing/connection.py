@@ -100,7 +100,7 @@ class Trace:
         self._flags = found[3] if found and is_valid else "00"
 
     def metadata(self) -> Tuple[Tuple[str, str], ...]:
-        """Of one call."""
+        """The metadata of one call: the shared trace and a new span."""
         return (("traceparent", f"00-{self._trace_id}-{os.urandom(8).hex()}-{self._flags}"),)
 
 

@@ -33,5 +33,5 @@ def is_retriable(error: grpc.RpcError) -> bool:
 
 
 def is_correctable(error: grpc.RpcError) -> bool:
-    """The server expects another observation, and says which when asked again."""
+    """The server expects another observation; the first answer of a new stream names it."""
     return error.code() == grpc.StatusCode.OUT_OF_RANGE

@@ -1,4 +1,4 @@
-"""What goes in and what comes out. Lengths are pixels of the source image, angles radians."""
+"""Arguments and results of the clients. Lengths are pixels of the source image, angles radians."""
 
 from __future__ import annotations
 
