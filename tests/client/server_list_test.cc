@@ -47,7 +47,8 @@ TEST(ServerListTest, BecomesNumbersOfOneFamily) {
   EXPECT_EQ(*ChannelTarget("127.0.0.1:1,10.0.0.2:3"), "ipv4:127.0.0.1:1,10.0.0.2:3");
   EXPECT_EQ(*ChannelTarget("[::1]:1,[fd00::2]:3"), "ipv6:[::1]:1,[fd00::2]:3");
   EXPECT_THAT(ChannelTarget("127.0.0.1:1,[::1]:1"),
-              StatusIs(absl::StatusCode::kUnavailable, HasSubstr("one family")));
+              StatusIs(absl::StatusCode::kUnavailable,
+                       HasSubstr("must all have an IPv4 address, or all an IPv6 address")));
 }
 
 // A camera at 50 Hz.
