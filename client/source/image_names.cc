@@ -18,11 +18,13 @@ constexpr std::array<const char*, 9> kImageEndings = {".jpg", ".jpeg", ".png",  
                                                       ".bmp", ".tif",  ".tiff", ".webp"};
 constexpr std::size_t kNanosecondDigits = 9;
 
+bool IsDigit(char c) { return absl::ascii_isdigit(static_cast<unsigned char>(c)); }
+
 // The run of digits at `i`, without leading zeros; moves `i` behind it.
 std::string TakeNumber(const std::string& text, std::size_t& i) {
   while (i < text.size() && text[i] == '0') ++i;
   const std::size_t begin = i;
-  while (i < text.size() && absl::ascii_isdigit(text[i])) ++i;
+  while (i < text.size() && IsDigit(text[i])) ++i;
   return text.substr(begin, i - begin);
 }
 
@@ -38,15 +40,14 @@ struct Decimal {
 
 std::optional<Decimal> ParseDecimal(const std::string& text) {
   std::size_t i = 0;
-  if (text.empty() || !absl::ascii_isdigit(text[0])) return std::nullopt;
+  if (text.empty() || !IsDigit(text[0])) return std::nullopt;
   Decimal decimal;
   decimal.whole = TakeNumber(text, i);
   if (i == text.size()) return decimal;
   if (text[i] != '.' || i + 1 == text.size()) return std::nullopt;
   decimal.has_point = true;
   decimal.fraction = text.substr(i + 1);
-  if (!std::all_of(decimal.fraction.begin(), decimal.fraction.end(), absl::ascii_isdigit))
-    return std::nullopt;
+  if (!std::all_of(decimal.fraction.begin(), decimal.fraction.end(), IsDigit)) return std::nullopt;
   decimal.fraction.erase(decimal.fraction.find_last_not_of('0') + 1);
   return decimal;
 }
@@ -81,9 +82,9 @@ std::optional<std::int64_t> Nanoseconds(const Decimal& seconds) {
 // The last number in a name; nothing without one.
 std::optional<std::int64_t> LastNumber(const std::string& stem) {
   std::size_t end = stem.size();
-  while (end > 0 && !absl::ascii_isdigit(stem[end - 1])) --end;
+  while (end > 0 && !IsDigit(stem[end - 1])) --end;
   std::size_t begin = end;
-  while (begin > 0 && absl::ascii_isdigit(stem[begin - 1])) --begin;
+  while (begin > 0 && IsDigit(stem[begin - 1])) --begin;
   std::int64_t value = 0;
   if (begin == end || !absl::SimpleAtoi(stem.substr(begin, end - begin), &value)) {
     return std::nullopt;
@@ -139,7 +140,7 @@ bool NaturalLess(const std::string& a, const std::string& b) {
   std::size_t i = 0;
   std::size_t j = 0;
   while (i < a.size() && j < b.size()) {
-    if (absl::ascii_isdigit(a[i]) && absl::ascii_isdigit(b[j])) {
+    if (IsDigit(a[i]) && IsDigit(b[j])) {
       const std::string m = TakeNumber(a, i);
       const std::string n = TakeNumber(b, j);
       if (m.size() != n.size()) return m.size() < n.size();
