@@ -26,11 +26,13 @@ constexpr double kLeastFit = -0.3;
 constexpr double kFitUnit = 0.4;
 // Steps around the believed one that count for it, correlation lengths.
 constexpr double kNearSteps = 1;
-// The active window holds steps of at least this mass. It is used while the robot is on the route
-// and at one place with at least these probabilities.
+// The active window holds steps of at least this mass, and of at least so many times what each step
+// gains by a restart: less tells nothing of a step. The window is used while the robot is on the
+// route and at one place with at least these probabilities.
 constexpr double kFarMass = 1e-9;
+constexpr double kFarRestarts = 2;
 constexpr double kKnownOnRoute = 0.95;
-constexpr double kKnownPlace = 0.99;
+constexpr double kKnownPlace = 0.999;
 // The paper's P_T alone: log odds by observation, bounded by RouteMembership.
 constexpr double kLandmarkWeight = 1;
 // What an observation after a gap weighs: its few vectors are seldom those of the place.
@@ -257,8 +259,10 @@ void PositionFilter::FocusIfKnown() {
     Unfocus();
     return;
   }
+  const double restart = options_.restart_probability / static_cast<double>(step_count_);
+  const double far = std::max(kFarMass, kFarRestarts * restart);
   for (std::size_t i = 0; i < beliefs_.size(); ++i) {
-    beliefs_[i].Focus(kFarMass, masses_[i]);
+    beliefs_[i].Focus(far, masses_[i]);
   }
   masses_ = Masses();
 }

@@ -12,8 +12,9 @@
 namespace homing {
 
 // Speeds of the filter, steps an observation: standing, then powers of the square root of 2.
-inline constexpr std::array<double, 14> kSpeeds = {
-    0, 0.125, 0.176777, 0.25, 0.353553, 0.5, 0.707107, 1, 1.414214, 2, 2.828427, 4, 5.656854, 8};
+inline constexpr std::array<double, 16> kSpeeds = {0,        0.125, 0.176777,  0.25, 0.353553, 0.5,
+                                                   0.707107, 1,     1.414214,  2,    2.828427, 4,
+                                                   5.656854, 8,     11.313708, 16};
 inline constexpr std::size_t kSpeedCount = kSpeeds.size();
 
 // Likelihood of a measured ratio for each speed. Immutable.
