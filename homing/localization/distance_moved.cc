@@ -28,22 +28,21 @@ double EvidenceWeight(double moved, double correlation_steps) {
   return std::clamp(kEvidencePerLength * std::abs(moved) / correlation_steps, kLeastEvidence, 1.0);
 }
 
-std::optional<double> DistanceMoved::Update(std::span<const RouteScale> routes,
-                                            std::span<const StepMass> masses,
+std::optional<double> DistanceMoved::Update(Routes routes, std::span<const StepMass> masses,
                                             const SeenProfiles& profiles) {
   usual_.resize(routes.size());
   double sum = 0, all = 0, way = 0;
   for (std::size_t i = 0; i < routes.size(); ++i) {
     const double mass = masses[i].Sum();
     for (std::size_t side = 0; side < profiles.size(); ++side) {
-      if (!routes[i].sides[side] || !profiles[side]) continue;
-      const std::int16_t now = routes[i].sides[side]->odometer.Read(profiles[side]->odometer());
+      if (!routes[i]->sides[side] || !profiles[side]) continue;
+      const std::int16_t now = routes[i]->sides[side]->odometer.Read(profiles[side]->odometer());
       if (now == CameraOdometer::kNone) continue;
       std::optional<double>& usual = usual_[i][side];
       usual = usual ? *usual + kLastReading * (now - *usual) : now;
-      sum += *usual * mass - MeanReading(routes[i].sides[side]->usual_readings, masses[i]);
+      sum += *usual * mass - MeanReading(routes[i]->sides[side]->usual_readings, masses[i]);
       all += mass;
-      way += mass * routes[i].sides[side]->odometer.Way(profiles[side]->odometer());
+      way += mass * routes[i]->sides[side]->odometer.Way(profiles[side]->odometer());
     }
   }
   if (!(all > 0)) {

@@ -26,7 +26,7 @@ class DistanceMoved {
  public:
   // Steps moved with this observation, -8 to 8. Negative: the scene passes in the other direction.
   // `masses`: by journey, the robot's possible places. None without a reading.
-  std::optional<double> Update(std::span<const RouteScale> routes, std::span<const StepMass> masses,
+  std::optional<double> Update(Routes routes, std::span<const StepMass> masses,
                                const SeenProfiles& profiles);
 
  private:

@@ -26,15 +26,23 @@ void MoveLane(std::span<const float> in, const std::array<float, 4>& taps, float
 }
 
 HOMING_VECTOR_CLONES
-void WeighLane(const LaneFactors& by, const float* table, std::span<float> lane,
+void WeightsOf(std::span<const float> factors, std::span<const std::int16_t> indices,
+               const float* table, std::span<float> out) {
+  const float* const factor = factors.data();
+  const std::int16_t* const index = indices.data();
+  float* const to = out.data();
+  for (std::size_t s = 0; s < out.size(); ++s) to[s] = factor[s] * table[index[s]];
+}
+
+HOMING_VECTOR_CLONES
+void WeighLane(std::span<const float> weights, float scale, float least, std::span<float> lane,
                std::span<float> sum) {
-  const float* const factor = by.factors.data();
-  const std::int16_t* const index = by.indices.data();
+  const float* const weight = weights.data();
   float* const value = lane.data();
   float* const total = sum.data();
   for (std::size_t s = 0; s < lane.size(); ++s) {
-    const float weighed = value[s] * factor[s] * table[index[s]] * by.scale;
-    value[s] = weighed < by.least ? 0 : weighed;
+    const float weighed = value[s] * weight[s] * scale;
+    value[s] = weighed < least ? 0 : weighed;
     total[s] += value[s];
   }
 }

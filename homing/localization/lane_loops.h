@@ -39,15 +39,13 @@ void MixLanes(const LaneNeighbours& lanes, const LaneMix& mix, std::span<float> 
 void MoveLane(std::span<const float> in, const std::array<float, 4>& taps, float added,
               std::span<float> out);
 
-// Multiplies a lane by the factors, by `scale` and by table[index], and adds it to `sum`. Values
-// below `least` become 0. REQUIRES: all equally long.
-struct LaneFactors {
-  std::span<const float> factors;
-  std::span<const std::int16_t> indices;
-  float scale = 1;
-  float least = 0;
-};
-void WeighLane(const LaneFactors& by, const float* table, std::span<float> lane,
+// out[s] = factors[s] table[indices[s]]. REQUIRES: all equally long.
+void WeightsOf(std::span<const float> factors, std::span<const std::int16_t> indices,
+               const float* table, std::span<float> out);
+
+// Multiplies a lane by the weights and by `scale`, and adds it to `sum`. Values below `least`
+// become 0. REQUIRES: all equally long.
+void WeighLane(std::span<const float> weights, float scale, float least, std::span<float> lane,
                std::span<float> sum);
 
 // sum += lane. REQUIRES: both equally long.

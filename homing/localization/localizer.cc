@@ -29,6 +29,12 @@ std::optional<double> TurnOnSpot(const ObservedFlow& flow, const std::array<Came
   return turn;
 }
 
+// A matcher keeps some memory for each landmark of the map: robots that take turns share one.
+Matcher& MatcherOfThread() {
+  static thread_local Matcher matcher;
+  return matcher;
+}
+
 }  // namespace
 
 absl::Status Validate(const LocalizerOptions& options) {
@@ -86,7 +92,7 @@ absl::StatusOr<Localization> Localizer::Localize(const Observation& observation,
   const SeenStep seen = SeeLandmarks(flow, options_.cameras, options_.travel, options_.landmark);
   result.motion = seen.motion;
   // III, equations (13) to (15), over all stored landmarks.
-  result.matches = matcher_.Find(journeys, seen.landmarks, options_.match);
+  result.matches = MatcherOfThread().Find(journeys, seen.landmarks, options_.match);
   // V, future work: the robot's place by the sequence of its views.
   const ObservedFlow straight = FollowPath(journeys, seen.flow, seen.motion);
   const SeenProfiles profiles = MakeRouteProfiles(straight, seen.motion);
@@ -180,7 +186,7 @@ void Localizer::ReportLandmark(std::span<const JourneyRef> journeys, const SeenS
   }
   result.step_sequence =
       journeys[static_cast<std::size_t>(position.journey)].map->sequence(*position.step);
-  const auto best = matcher_.FindBestWithin(journeys[static_cast<std::size_t>(position.journey)],
+  const auto best = MatcherOfThread().FindBestWithin(journeys[static_cast<std::size_t>(position.journey)],
                                             position.interval_first, position.interval_last, seen,
                                             options_.match.threshold);
   if (best) {

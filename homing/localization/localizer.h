@@ -87,7 +87,6 @@ class Localizer {
 
   LocalizerOptions options_;
   ObservationFlow flow_;
-  Matcher matcher_;
   PositionFilter filter_;
   PathPoseFilter path_;
   // Sum of the reported turns, rad.

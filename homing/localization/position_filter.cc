@@ -94,15 +94,13 @@ void PositionFilter::Grow(std::span<const JourneyRef> journeys) {
   if (!options_.paper_only) {
     profile_likelihood_.Grow(journeys);
   }
-  speed_steps_.resize(journeys.size(), -1);
+  speeds_.resize(journeys.size());
+  speed_steps_.resize(journeys.size());
   for (std::size_t i = 0; i < journeys.size(); ++i) {
-    const RouteScale route = options_.paper_only ? RouteScale{} : profile_likelihood_.routes()[i];
-    if (speed_steps_[i] == route.step_count && i < speeds_.size()) continue;
-    if (i == speeds_.size()) {
-      speeds_.emplace_back(route.odometer_noise);
-    } else {
-      speeds_[i] = SpeedEvidence(route.odometer_noise);
-    }
+    static const RouteScale none;
+    const RouteScale& route = options_.paper_only ? none : *profile_likelihood_.routes()[i];
+    if (speeds_[i] && speed_steps_[i] == route.step_count) continue;
+    speeds_[i] = SpeedEvidence::OfNoise(route.odometer_noise);
     speed_steps_[i] = route.step_count;
   }
   if (before == step_count_) {
@@ -126,7 +124,7 @@ void PositionFilter::Predict(Motion motion) {
     if (motion == Motion::kMoving && started_) {
       const double before = belief.Mass();
       lost += before *
-              (after_gap_ ? belief.MoveUnseen(restart) : belief.Move(speeds_[i].change(), restart));
+              (after_gap_ ? belief.MoveUnseen(restart) : belief.Move(speeds_[i]->change(), restart));
     } else if (motion == Motion::kTurning) {
       belief.Turn(restart);
     }
@@ -146,26 +144,24 @@ std::vector<StepMass> PositionFilter::Masses() const {
   return masses;
 }
 
-void PositionFilter::Weigh(std::span<const JourneyRef> journeys, const SeenProfiles& profiles,
-                           double weight, const Factors& factors) {
+void PositionFilter::Weigh(const SeenProfiles& profiles, double weight, const Factors& factors) {
   const bool is_unread = options_.paper_only || after_gap_;
   double after = 0;
   for (std::size_t i = 0; i < beliefs_.size(); ++i) {
     const std::vector<std::int16_t> ratios =
-        is_unread
-            ? std::vector<std::int16_t>(masses_[i].mass.size(), kNoRatio)
-            : SpeedRatios(*journeys[i].map, profile_likelihood_.routes()[i], masses_[i], profiles);
+        is_unread ? std::vector<std::int16_t>(masses_[i].mass.size(), kNoRatio)
+                  : SpeedRatios(*profile_likelihood_.routes()[i], masses_[i], profiles);
     const std::array<double, 2> directions =
         is_unread ? std::array<double, 2>{1, 1}
-                  : DirectionFactors(profile_likelihood_.routes()[i], profiles, weight);
-    masses_[i] = beliefs_[i].Weigh(factors(i), ratios, speeds_[i], directions);
+                  : DirectionFactors(*profile_likelihood_.routes()[i], profiles, weight);
+    masses_[i] = beliefs_[i].Weigh(factors(i), ratios, *speeds_[i], directions);
     after += masses_[i].Sum() + beliefs_[i].MassBeyond();
   }
   Normalise(after);
   speed_ = {};
   for (const RouteBelief& belief : beliefs_) {
-    const RouteBelief::Speed speed = belief.MeanSpeed();
-    const double mass = belief.Masses().Sum();
+    const RouteBelief::Speed& speed = belief.mean_speed();
+    const double mass = belief.MassWithin();
     speed_.absolute += mass * speed.absolute;
     speed_.outward += mass * speed.outward;
   }
@@ -193,20 +189,20 @@ double PositionFilter::WeightOfObservation(double moved) const {
     const double mass = masses_[i].Sum();
     if (mass > most) {
       most = mass;
-      length = profile_likelihood_.routes()[i].correlation_steps;
+      length = profile_likelihood_.routes()[i]->correlation_steps;
     }
   }
   return EvidenceWeight(moved, length);
 }
 
 std::optional<double> PositionFilter::SharedBy(std::span<const JourneyRef> journeys, double moved) {
-  const double length = profile_likelihood_.routes()[0].correlation_steps;
+  const double length = profile_likelihood_.routes()[0]->correlation_steps;
   const auto half = std::max<std::int64_t>(1, std::lround(kNearSteps * length));
   const auto [journey, window] = FindBest(half);
   moved_ += moved;
   BelievedInstant now = profile_likelihood_.Believed(journey, window.first, window.last);
   now.moved = moved_;
-  return shared_change_.Add(journeys, profile_likelihood_.routes(), now);
+  return shared_change_.Add(journeys, *profile_likelihood_.routes()[journey], now);
 }
 
 void PositionFilter::AddMembership(double weight, std::optional<double> shared, double fit) {
@@ -225,7 +221,7 @@ void PositionFilter::CorrectByProfiles(std::span<const JourneyRef> journeys,
   profile_likelihood_.Compute(journeys, profiles, masses_, weight);
   const double fit = MeanFactor([this](std::size_t i) { return profile_likelihood_.of(i); });
   membership_.Fit(fit);
-  Weigh(journeys, profiles, weight, [this](std::size_t i) { return profile_likelihood_.of(i); });
+  Weigh(profiles, weight, [this](std::size_t i) { return profile_likelihood_.of(i); });
   AddMembership(weight, SharedBy(journeys, moved), fit);
   profile_likelihood_.Learn();
   has_offset_ = true;
@@ -238,7 +234,7 @@ void PositionFilter::CorrectByLandmarks(std::span<const JourneyRef> journeys,
   likelihood_.Compute(journeys, seen);
   const auto factors = [this](std::size_t i) { return std::span<const float>(likelihood_.of(i)); };
   const double fit = MeanFactor(factors);
-  Weigh(journeys, {}, 1, factors);
+  Weigh({}, 1, factors);
   membership_.Fit(fit / likelihood_.OffRoute());
   membership_.Add(kLandmarkWeight * (std::log(fit) - std::log(likelihood_.OffRoute())));
 }

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -113,8 +114,7 @@ class PositionFilter {
   // Multiplies the steps of each journey's active window by their factors, the speeds by the
   // odometer's likelihoods, and the directions by those of the flow's sign. `weight`: that of the
   // observation.
-  void Weigh(std::span<const JourneyRef> journeys, const SeenProfiles& profiles, double weight,
-             const Factors& factors);
+  void Weigh(const SeenProfiles& profiles, double weight, const Factors& factors);
   // Weight of an observation after so many steps: the fraction of it that is new (EvidenceWeight).
   // (0, 1].
   double WeightOfObservation(double moved) const;
@@ -155,7 +155,7 @@ class PositionFilter {
   // A moving observation was processed.
   bool started_ = false;
   // By journey.
-  std::vector<SpeedEvidence> speeds_;
+  std::vector<std::shared_ptr<const SpeedEvidence>> speeds_;
   // Steps of the map when `speeds_` were made.
   std::vector<std::int64_t> speed_steps_;
   RouteBelief::Speed speed_;

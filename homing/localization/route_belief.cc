@@ -68,34 +68,41 @@ void RouteBelief::Grow(std::int64_t step_count, double mass) {
   if (focused) {
     return;
   }
-  for (std::size_t lane = 0; lane < kLanes; ++lane) {
-    lanes_[lane].resize(static_cast<std::size_t>(step_count),
-                        static_cast<float>(mass * kPrior / scale_));
-  }
+  ForEachLane([&](Lane& lane, double fraction) {
+    lane.resize(static_cast<std::size_t>(step_count), static_cast<float>(mass * fraction / scale_));
+  });
 }
 
 void RouteBelief::AddToEach(double mass) {
   background_ += mass / scale_;
-  for (std::size_t lane = 0; lane < kLanes; ++lane) {
-    const auto share = static_cast<float>(mass * kPrior / scale_);
-    for (float& value : lanes_[lane]) {
-      value += share;
-    }
-  }
+  ForEachLane([&](Lane& lane, double fraction) {
+    const auto each = static_cast<float>(mass * fraction / scale_);
+    for (float& value : lane) value += each;
+  });
 }
 
 void RouteBelief::Add(const Place& place) {
   const std::int64_t first = std::max<std::int64_t>(0, place.first);
   const std::int64_t last = std::min(step_count_ - 1, place.last);
   const int ways = (place.homeward ? 1 : 0) + (place.outward ? 1 : 0);
-  const double each =
-      place.mass / scale_ / ways / kSpeedCount / static_cast<double>(last - first + 1);
-  for (std::size_t lane = 0; lane < kLanes; ++lane) {
-    if (!(lane < kSpeedCount ? place.homeward : place.outward)) continue;
+  const double each = place.mass / scale_ / ways / static_cast<double>(last - first + 1);
+  const auto add = [first, last](Lane& lane, double mass) {
     for (std::int64_t step = first; step <= last; ++step) {
-      lanes_[lane][static_cast<std::size_t>(step)] += static_cast<float>(each);
+      lane[static_cast<std::size_t>(step)] += static_cast<float>(mass);
+    }
+  };
+  for (std::size_t way = 0; way < ways_.size(); ++way) {
+    if (!(way == 0 ? place.homeward : place.outward)) continue;
+    add(ways_[way], each);
+    for (std::size_t speed = 0; speed < kSpeedCount; ++speed) {
+      add(lanes_[way * kSpeedCount + speed], each / kSpeedCount);
     }
   }
+}
+
+void RouteBelief::ForEachLane(const std::function<void(Lane& lane, double fraction)>& change) {
+  for (Lane& lane : lanes_) change(lane, kPrior);
+  for (Lane& way : ways_) change(way, kPrior * kSpeedCount);
 }
 
 float RouteBelief::Beyond(std::int64_t step) const {
@@ -103,7 +110,7 @@ float RouteBelief::Beyond(std::int64_t step) const {
 }
 
 void RouteBelief::Mix(std::size_t lane, const Motion& motion, const Carried& carried,
-                      const Lane& slower, const Lane& all, Lane& mixed) const {
+                      const Lane& slower, Lane& mixed) const {
   const std::size_t speed = lane % kSpeedCount;
   const std::int64_t start = carried.begin - kFurthest;
   mixed.resize(static_cast<std::size_t>(carried.end - carried.begin + 2 * kFurthest));
@@ -116,7 +123,7 @@ void RouteBelief::Mix(std::size_t lane, const Motion& motion, const Carried& car
             .slower = speed > 0 ? slower.data() : same.data(),
             .faster = lanes_[speed + 1 < kSpeedCount ? lane + 1 : lane].data(),
             .back = lanes_[(lane + kSpeedCount) % kLanes].data(),
-            .all = all.data()},
+            .all = ways_[lane / kSpeedCount].data()},
            motion.mix, std::span(mixed).subspan(static_cast<std::size_t>(held), same.size()));
   for (std::int64_t i = held + std::ssize(same); i < std::ssize(mixed); ++i) {
     mixed[static_cast<std::size_t>(i)] = Beyond(start + i);
@@ -152,22 +159,21 @@ void RouteBelief::Carry(const Motion& motion, double restart) {
                         .end = std::min(step_count_, first_ + focus_size() + kFurthest)};
   std::array<Lane, 2> slower;
   std::array<Lane, 2> mixed;
-  std::array<Lane, 2> all;
-  for (std::size_t lane = 0; lane < kLanes; ++lane) {
-    Lane& sum = all[lane / kSpeedCount];
-    sum.resize(lanes_[lane].size());
-    AddLane(lanes_[lane], sum);
-  }
+  std::array<Lane, 2> ways;
+  for (Lane& way : ways) way.resize(static_cast<std::size_t>(carried.end - carried.begin));
   for (std::size_t speed = 0; speed < kSpeedCount; ++speed) {
     const std::array lanes = {speed, speed + kSpeedCount};
     for (std::size_t way = 0; way < lanes.size(); ++way) {
-      Mix(lanes[way], motion, carried, slower[way], all[way], mixed[way]);
+      Mix(lanes[way], motion, carried, slower[way], mixed[way]);
     }
     for (std::size_t way = 0; way < lanes.size(); ++way) {
-      slower[way].swap(lanes_[lanes[way]]);
-      MoveMixed(lanes[way], motion, restart, mixed[way], lanes_[lanes[way]]);
+      Lane& lane = lanes_[lanes[way]];
+      slower[way].swap(lane);
+      MoveMixed(lanes[way], motion, restart, mixed[way], lane);
+      AddLane(lane, ways[way]);
     }
   }
+  ways_ = std::move(ways);
   first_ = carried.begin;
   background_ = background_ * scale_ + restart;
   scale_ = 1;
@@ -193,10 +199,9 @@ double RouteBelief::MoveMixing(double to_neighbours, double to_any, double resta
                         .from_all = static_cast<float>(all)},
                 .displacements = {}};
   std::ranges::transform(kSpeeds, motion.displacements.begin(), DisplacementOf);
-  const double before = Masses().Sum();
-  Carry(motion, 0);
-  const double after = Masses().Sum();
-  if (restart > 0) AddToEach(restart);
+  const double before = MassWithin();
+  Carry(motion, restart);
+  const double after = MassWithin() - restart * static_cast<double>(focus_size());
   return before > 0 ? std::clamp(1 - after / before, 0.0, 1.0) : 0;
 }
 
@@ -211,15 +216,26 @@ void RouteBelief::Turn(double restart) {
 
 StepMass RouteBelief::Weigh(std::span<const float> factors, std::span<const std::int16_t> ratios,
                             const SpeedEvidence& speeds, const std::array<double, 2>& directions) {
-  StepMass left{first_, std::vector<float>(factors.size())};
-  for (std::size_t lane = 0; lane < kLanes; ++lane) {
-    const double scale = scale_ * directions[lane / kSpeedCount];
-    const LaneFactors by{factors, ratios, static_cast<float>(scale), kLeastMass};
-    WeighLane(by, speeds.of(lane % kSpeedCount), lanes_[lane], left.mass);
+  double mass = 0;
+  Speed sum;
+  Lane weights(factors.size());
+  for (Lane& way : ways_) std::ranges::fill(way, 0.0F);
+  for (std::size_t speed = 0; speed < kSpeedCount; ++speed) {
+    WeightsOf(factors, ratios, speeds.of(speed), weights);
+    for (std::size_t way = 0; way < ways_.size(); ++way) {
+      Lane& lane = lanes_[way * kSpeedCount + speed];
+      WeighLane(weights, static_cast<float>(scale_ * directions[way]), kLeastMass, lane,
+                ways_[way]);
+      const double of_lane = SumOf(lane);
+      mass += of_lane;
+      sum.absolute += of_lane * kSpeeds[speed];
+      sum.outward += of_lane * (way == 0 ? -kSpeeds[speed] : kSpeeds[speed]);
+    }
   }
+  mean_speed_ = mass > 0 ? Speed{sum.absolute / mass, sum.outward / mass} : Speed{};
   background_ *= scale_;
   scale_ = 1;
-  return left;
+  return Masses();
 }
 
 void RouteBelief::Scale(double factor) { scale_ *= factor; }
@@ -236,14 +252,14 @@ void RouteBelief::Focus(double least, const StepMass& mass) {
         std::accumulate(mass.mass.begin(), begin, 0.0) + std::accumulate(end, mass.mass.end(), 0.0);
     background_ = beyond / (scale_ * static_cast<double>(step_count_ - kept));
   }
-  for (Lane& lane : lanes_) {
+  ForEachLane([&](Lane& lane, double /*fraction*/) {
     std::shift_left(lane.begin(), lane.begin() + skipped + kept, skipped);
     lane.resize(static_cast<std::size_t>(kept));
     // Where few steps are left, their room is not kept for all.
     if (lane.capacity() > 2 * lane.size() + kRoom) {
       lane.shrink_to_fit();
     }
-  }
+  });
   first_ += skipped;
 }
 
@@ -251,29 +267,42 @@ void RouteBelief::Unfocus() {
   if (!IsFocused()) {
     return;
   }
-  for (std::size_t lane = 0; lane < kLanes; ++lane) {
-    Lane all(static_cast<std::size_t>(step_count_), static_cast<float>(background_ * kPrior));
-    std::ranges::copy(lanes_[lane], all.begin() + first_);
-    lanes_[lane] = std::move(all);
-  }
+  ForEachLane([&](Lane& lane, double fraction) {
+    Lane all(static_cast<std::size_t>(step_count_), static_cast<float>(background_ * fraction));
+    std::ranges::copy(lane, all.begin() + first_);
+    lane = std::move(all);
+  });
   first_ = 0;
 }
 
 StepMass RouteBelief::Masses() const {
-  StepMass masses{first_, std::vector<float>(lanes_[0].size())};
-  for (const Lane& lane : lanes_) {
-    AddLane(lane, masses.mass);
-  }
+  StepMass masses{first_, ways_[0]};
+  AddLane(ways_[1], masses.mass);
   for (float& mass : masses.mass) {
     mass *= static_cast<float>(scale_);
   }
   return masses;
 }
 
+double RouteBelief::MassWithin() const { return scale_ * (SumOf(ways_[0]) + SumOf(ways_[1])); }
+
+std::array<double, 2> RouteBelief::DirectionMass(std::int64_t first, std::int64_t last) const {
+  const std::int64_t begin = std::max<std::int64_t>(0, first - first_);
+  const std::int64_t end = std::min(focus_size(), last + 1 - first_);
+  if (begin >= end) return {};
+  std::array<double, 2> mass{};
+  for (std::size_t way = 0; way < mass.size(); ++way) {
+    mass[way] = scale_ * SumOf(std::span(ways_[way])
+                                   .subspan(static_cast<std::size_t>(begin),
+                                            static_cast<std::size_t>(end - begin)));
+  }
+  return mass;
+}
+
 double RouteBelief::MassBeyond() const {
   return background_ * scale_ * static_cast<double>(step_count_ - focus_size());
 }
 
-double RouteBelief::Mass() const { return Masses().Sum() + MassBeyond(); }
+double RouteBelief::Mass() const { return MassWithin() + MassBeyond(); }
 
 }  // namespace homing

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -64,6 +65,7 @@ class RouteBelief {
   double Mass() const;
   // Masses of the active window.
   StepMass Masses() const;
+  double MassWithin() const;
   // Mass of all steps outside of the active window.
   double MassBeyond() const;
   // Mean speed of the active window, steps an observation, and with its sign away from home.
@@ -71,7 +73,8 @@ class RouteBelief {
     double absolute = 0;
     double outward = 0;
   };
-  Speed MeanSpeed() const;
+  // After the last Weigh.
+  const Speed& mean_speed() const { return mean_speed_; }
   // Mass from `first` to `last` that moves towards home (0), away from it (1).
   std::array<double, 2> DirectionMass(std::int64_t first, std::int64_t last) const;
 
@@ -89,19 +92,23 @@ class RouteBelief {
 
   void Carry(const Motion& motion, double restart);
   // Copies a lane, mixed with its neighbours, with what lies on either side of the steps of
-  // `carried`, into `mixed`. `slower`: the lane of the speed before, as it was; `all`: the sum of
-  // this direction's lanes, as they were.
+  // `carried`, into `mixed`. `slower`: the lane of the speed before, as it was.
   void Mix(std::size_t lane, const Motion& motion, const Carried& carried, const Lane& slower,
-           const Lane& all, Lane& mixed) const;
+           Lane& mixed) const;
   // Moves a mixed lane to where it is now.
   void MoveMixed(std::size_t lane, const Motion& motion, double restart, const Lane& mixed,
                  Lane& moved) const;
   float Beyond(std::int64_t step) const;
+  // Lanes and their sums, each with the fraction of a step's mass that it gets in the prior.
+  void ForEachLane(const std::function<void(Lane& lane, double fraction)>& change);
 
   std::int64_t step_count_ = 0;
   std::int64_t first_ = 0;
   // Masses by lane, and by step from first_ on.
   std::array<Lane, kLanes> lanes_;
+  // Sums of the lanes of each direction: other loops need not go through all lanes.
+  std::array<Lane, 2> ways_;
+  Speed mean_speed_;
   // Mass of each step outside of the active window.
   double background_ = 0;
   // All masses are still to be multiplied by this.

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
+#include "homing/base/mutex.h"
 #include "homing/profile/route_scale.h"
 
 namespace homing {
@@ -54,6 +56,16 @@ SpeedEvidence::SpeedEvidence(double noise) {
     }
     tables_[speed][kNoRatio] = 1;
   }
+}
+
+std::shared_ptr<const SpeedEvidence> SpeedEvidence::OfNoise(double noise) {
+  static Mutex mutex;
+  static std::map<double, std::weak_ptr<const SpeedEvidence>> used;
+  const MutexLock lock(mutex);
+  std::erase_if(used, [](const auto& entry) { return entry.second.expired(); });
+  std::shared_ptr<const SpeedEvidence> shared = used[noise].lock();
+  if (!shared) used[noise] = shared = std::make_shared<const SpeedEvidence>(noise);
+  return shared;
 }
 
 }  // namespace homing

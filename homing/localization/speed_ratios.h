@@ -5,17 +5,15 @@
 #include <cstdint>
 #include <vector>
 
-#include "homing/journey/journey_map.h"
 #include "homing/profile/profile_views.h"
 #include "homing/profile/route_scale.h"
 #include "homing/profile/step_mass.h"
 
 namespace homing {
 
-// Indices into SpeedEvidence, by step of `window`; the mean of the cameras. `route`: the scale of
-// `map`.
-std::vector<std::int16_t> SpeedRatios(const JourneyMap& map, const RouteScale& route,
-                                      const StepMass& window, const SeenProfiles& profiles);
+// Indices into SpeedEvidence, by step of `window`; the mean of the cameras.
+std::vector<std::int16_t> SpeedRatios(const RouteScale& route, const StepMass& window,
+                                      const SeenProfiles& profiles);
 
 }  // namespace homing
 

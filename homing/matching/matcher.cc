@@ -18,6 +18,9 @@
 namespace homing {
 namespace {
 
+// Deviation models whose bounds are kept. Most journeys have the same.
+constexpr std::size_t kMostBounds = 64;
+
 // Twice the rounding error of a bound's product in float.
 constexpr float kProductRounding = 1e-6F;
 // Candidates kept before they are computed: 20 MB. A query with a low threshold may have far more
@@ -74,6 +77,7 @@ const SurvivalBound& Matcher::BoundOf(const DeviationModel& model) {
   if (known != bounds_.end()) {
     return *known->second;
   }
+  if (bounds_.size() == kMostBounds) bounds_.clear();
   return *bounds_.emplace_back(model, std::make_unique<const SurvivalBound>(model)).second;
 }
 

@@ -39,7 +39,7 @@ BelievedInstant ProfileLikelihood::Believed(std::size_t journey, std::int64_t fi
     for (std::size_t i = 0; i < sums.size(); ++i) {
       const auto step = static_cast<std::size_t>(instant.step) + i;
       sums[i] += int{distances[step - static_cast<std::size_t>(held)]} -
-                 int{routes_[journey].sides[side]->bias[step]};
+                 int{routes_[journey]->sides[side]->bias[step]};
     }
   }
   instant.step += std::ranges::min_element(sums) - sums.begin();

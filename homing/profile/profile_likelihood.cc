@@ -28,8 +28,7 @@ struct Sample {
   std::vector<std::int16_t> biases;
 };
 
-Sample SampleOf(std::span<const JourneyRef> journeys, std::span<const RouteScale> routes,
-                Side side) {
+Sample SampleOf(std::span<const JourneyRef> journeys, Routes routes, Side side) {
   std::int64_t all = 0;
   for (const JourneyRef& journey : journeys) {
     all += std::ssize(journey.map->profiles(side));
@@ -42,7 +41,7 @@ Sample SampleOf(std::span<const JourneyRef> journeys, std::span<const RouteScale
   for (std::size_t i = 0; i < journeys.size(); ++i) {
     const auto stored = journeys[i].map->profiles(side);
     if (stored.empty()) continue;
-    const std::vector<std::int16_t>& bias = routes[i].sides[static_cast<std::size_t>(side)]->bias;
+    const std::vector<std::int16_t>& bias = routes[i]->sides[static_cast<std::size_t>(side)]->bias;
     for (; next < std::ssize(stored); next += stride) {
       sample.profiles.push_back(&stored[static_cast<std::size_t>(next)]);
       sample.biases.push_back(bias[static_cast<std::size_t>(next)]);
@@ -63,22 +62,19 @@ bool ProfileLikelihood::CanCompare(std::span<const JourneyRef> journeys, const S
 
 void ProfileLikelihood::Grow(std::span<const JourneyRef> journeys) {
   routes_.resize(journeys.size());
+  extended_.resize(journeys.size());
   measured_.resize(journeys.size());
   for (Belief& belief : beliefs_) belief.offsets.resize(journeys.size());
   for (std::size_t i = 0; i < journeys.size(); ++i) {
     const JourneyMap& map = *journeys[i].map;
     for (Belief& belief : beliefs_) belief.offsets[i].Grow(map.step_count());
     const std::shared_ptr<const RouteScale> scale = MeasuredScale(map);
-    if (scale != measured_[i]) {
-      measured_[i] = scale;
-      routes_[i] = *scale;
-    }
-    for (std::optional<SideScale>& side : routes_[i].sides) {
-      if (!side) continue;
-      const auto steps = static_cast<std::size_t>(map.step_count());
-      side->bias.resize(steps);
-      side->usual_readings.resize(steps, side->usual_readings.back());
-    }
+    if (scale == measured_[i] && extended_[i] == map.step_count()) continue;
+    measured_[i] = scale;
+    extended_[i] = map.step_count();
+    routes_[i] = scale->step_count == map.step_count()
+                     ? scale
+                     : std::make_shared<const RouteScale>(ExtendedRoute(*scale, map));
   }
 }
 
@@ -175,7 +171,7 @@ void ProfileLikelihood::Multiply(std::size_t side, std::size_t view, std::size_t
   if (distances.empty()) {
     return;
   }
-  const std::span<const std::int16_t> bias = routes_[journey].sides[side]->bias;
+  const std::span<const std::int16_t> bias = routes_[journey]->sides[side]->bias;
   ProfileRatio::OfWeight(weight_).Multiply(
       distances, bias.subspan(static_cast<std::size_t>(first), distances.size()),
       scales_[side][view], std::span(factors).first(distances.size()));
@@ -243,6 +239,11 @@ void ProfileLikelihood::Learn() {
   }
   belief().anywhere = PathOffsets::Mix(mass);
   ++instants_;
+  // What only this instant needed is freed: of a thousand robots few compare at once.
+  for (auto& views : distances_) views.fill({});
+  likelihoods_.clear();
+  fits_.clear();
+  factors_ = {};
 }
 
 void ProfileLikelihood::StartAtOffset(double offset) {

@@ -29,7 +29,7 @@ class ProfileLikelihood {
   // Measures journeys that are new or have grown much.
   void Grow(std::span<const JourneyRef> journeys);
   // The scale of each journey.
-  std::span<const RouteScale> routes() const { return routes_; }
+  Routes routes() const { return routes_; }
 
   // `predicted`: by journey, the mass of its steps, or of those of its active window, before this
   // instant. `weight`: of this observation, (0, 1]; 1 if it depends on nothing seen before.
@@ -105,7 +105,9 @@ class ProfileLikelihood {
   std::vector<std::size_t> first_stretch_;
   // Scales by journey: as measured, and extended to the steps added since.
   std::vector<std::shared_ptr<const RouteScale>> measured_;
-  std::vector<RouteScale> routes_;
+  std::vector<std::shared_ptr<const RouteScale>> routes_;
+  // Steps of each when it was extended.
+  std::vector<std::int64_t> extended_;
   // First predicted step.
   std::vector<std::int64_t> first_steps_;
   // Weight of this observation.

@@ -65,17 +65,21 @@ double Roughness(std::span<const FlowProfile> profiles, Value value) {
 int LengthOf(const OdometerReading& reading) { return reading.length_code; }
 int SpreadOf(const OdometerReading& reading) { return reading.spread_code; }
 
+// Adds the readings of the profiles that have none yet.
+void AddReadings(std::span<const FlowProfile> profiles, SideScale& side) {
+  for (const FlowProfile& profile : profiles.subspan(side.readings.size())) {
+    side.readings.push_back(side.odometer.Read(profile.odometer));
+  }
+}
+
 // Mean over the neighbours, weighted by a Gaussian of kReadingSteps steps; where none has a
 // reading, the median of all.
-std::vector<std::int16_t> UsualReadings(std::span<const FlowProfile> profiles,
-                                        const CameraOdometer& odometer) {
-  std::vector<std::int16_t> readings;
+std::vector<std::int16_t> UsualReadings(std::span<const std::int16_t> readings) {
   std::vector<float> valid;
-  for (const FlowProfile& profile : profiles) {
-    readings.push_back(odometer.Read(profile.odometer));
-    if (readings.back() != CameraOdometer::kNone) valid.push_back(readings.back());
+  for (const std::int16_t reading : readings) {
+    if (reading != CameraOdometer::kNone) valid.push_back(reading);
   }
-  std::vector<std::int16_t> usual(profiles.size(),
+  std::vector<std::int16_t> usual(readings.size(),
                                   static_cast<std::int16_t>(std::lround(MedianOf(valid))));
   const auto reach = static_cast<std::int64_t>(3 * kReadingSteps);
   for (std::int64_t step = 0; step < std::ssize(usual); ++step) {
@@ -237,7 +241,8 @@ RouteScale MeasureRoute(const JourneyMap& map) {
     const auto at = static_cast<std::size_t>(side);
     SideScale& scale = route.sides[at].emplace();
     scale.odometer = CameraOdometer(stored);
-    scale.usual_readings = UsualReadings(stored, scale.odometer);
+    AddReadings(stored, scale);
+    scale.usual_readings = UsualReadings(scale.readings);
     selves[at] = MeasureSelf(stored);
     scale.bias = BiasOf(selves[at], stored.size());
     TakeOff(scale.bias, selves[at]);
@@ -261,6 +266,19 @@ RouteScale MeasureRoute(const JourneyMap& map) {
     route.sides[at]->stretch_distance = DistanceAt(selves[at], steps_of(kStretchLengths));
   }
   MeasureDifferentShare(map, route);
+  return route;
+}
+
+RouteScale ExtendedRoute(const RouteScale& measured, const JourneyMap& map) {
+  RouteScale route = measured;
+  for (const Side side : {Side::kLeft, Side::kRight}) {
+    std::optional<SideScale>& scale = route.sides[static_cast<std::size_t>(side)];
+    if (!scale) continue;
+    const auto stored = map.profiles(side);
+    AddReadings(stored, *scale);
+    scale->bias.resize(stored.size());
+    scale->usual_readings.resize(stored.size(), scale->usual_readings.back());
+  }
   return route;
 }
 

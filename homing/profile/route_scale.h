@@ -56,6 +56,8 @@ inline constexpr double kStretchLengths = 2;
 // Figures of one side's profiles. Immutable.
 struct SideScale {
   CameraOdometer odometer;
+  // By step: its reading, CameraOdometer::kNone without one.
+  std::vector<std::int16_t> readings;
   // By step: mean reading of the steps around it.
   std::vector<std::int16_t> usual_readings;
   // By step: half of the difference between its distance to other places and the usual distance. A
@@ -82,7 +84,13 @@ struct RouteScale {
   std::array<float, 4> different_share{};
 };
 
+// By journey. Robots on the same journey share its figures.
+using Routes = std::span<const std::shared_ptr<const RouteScale>>;
+
 RouteScale MeasureRoute(const JourneyMap& map);
+// The figures of a map that has grown since `measured`: the new steps have no bias and the usual
+// reading of the last one.
+RouteScale ExtendedRoute(const RouteScale& measured, const JourneyMap& map);
 
 // The same, kept with the map until the map has grown much or has profiles of a new side.
 std::shared_ptr<const RouteScale> MeasuredScale(const JourneyMap& map);

@@ -65,9 +65,7 @@ std::optional<double> ShareOf(std::span<const JourneyRef> journeys, const RouteS
 }  // namespace
 
 std::optional<double> SharedChange::Add(std::span<const JourneyRef> journeys,
-                                        std::span<const RouteScale> routes,
-                                        const BelievedInstant& now) {
-  const RouteScale& route = routes[now.journey];
+                                        const RouteScale& route, const BelievedInstant& now) {
   const double stretch = kStretchLengths * route.correlation_steps;
   // The latest instant that is far enough behind; at first one that is less far.
   const auto away = [&now](const BelievedInstant& then) {

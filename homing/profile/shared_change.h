@@ -39,8 +39,8 @@ class SharedChange {
   // correlation lengths before. Returns the fraction of the map's usual change that both share,
   // less the fraction that the most similar different place of the same map shares: above 0 on the
   // route. None while the robot has not moved that far. `routes`: the scales of `journeys`.
-  std::optional<double> Add(std::span<const JourneyRef> journeys,
-                            std::span<const RouteScale> routes, const BelievedInstant& now);
+  std::optional<double> Add(std::span<const JourneyRef> journeys, const RouteScale& route,
+                            const BelievedInstant& now);
 
  private:
   std::deque<BelievedInstant> past_;

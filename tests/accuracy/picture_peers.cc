@@ -88,9 +88,9 @@ constexpr double kRestart = 1e-4;
 
 class PictureBelief {
  public:
-  // Keeps both.
-  PictureBelief(const JourneyMap& map, const RouteScale& route)
-      : map_(map), route_(route), speeds_(route.odometer_noise), unbiased_(Steps()) {
+  // Keeps the map.
+  PictureBelief(const JourneyMap& map, std::shared_ptr<const RouteScale> route)
+      : map_(map), route_(std::move(route)), speeds_(route_->odometer_noise), unbiased_(Steps()) {
     belief_.Grow(map.step_count(), 1.0 / static_cast<double>(map.step_count()));
   }
 
@@ -108,10 +108,10 @@ class PictureBelief {
     }
     const StepMass masses = belief_.Masses();
     const double moved = distance_.Update({&route_, 1}, {&masses, 1}, profiles).value_or(1);
-    const double weight = started_ ? EvidenceWeight(moved, route_.correlation_steps) : 1;
+    const double weight = started_ ? EvidenceWeight(moved, route_->correlation_steps) : 1;
     started_ = true;
-    belief_.Weigh(FactorsOf(differences, weight), SpeedRatios(map_, route_, masses, profiles),
-                  speeds_, DirectionFactors(route_, profiles, weight));
+    belief_.Weigh(FactorsOf(differences, weight), SpeedRatios(*route_, masses, profiles), speeds_,
+                  DirectionFactors(*route_, profiles, weight));
     belief_.Scale(1 / std::max(belief_.Mass(), 1e-20));
     return BestWindow(belief_.Masses(), run.tolerance_steps, map_.step_count());
   }
@@ -131,7 +131,7 @@ class PictureBelief {
   }
 
   const JourneyMap& map_;
-  const RouteScale& route_;
+  std::shared_ptr<const RouteScale> route_;
   SpeedEvidence speeds_;
   std::vector<std::int16_t> unbiased_;
   RouteBelief belief_;
@@ -197,7 +197,7 @@ Answers SeqSlam(const Run& run, const Differences& differences, int window) {
 
 Answers PictureFilter(const Run& run, const Differences& differences) {
   const JourneyMap map = MapOf(*run.maps[0]);
-  const RouteScale route = MeasureRoute(map);
+  const auto route = std::make_shared<const RouteScale>(MeasureRoute(map));
   const auto steps = StepsOf(*run.maps[0]);
   const auto query = run.QuerySteps();
   PictureBelief belief(map, route);

@@ -13,12 +13,13 @@ TEST(EvidenceWeightTest, CountsTheDistanceInCorrelationLengths) {
 }
 
 TEST(DistanceMovedTest, WithoutAReadingThereIsNone) {
-  RouteScale route;
+  auto route = std::make_shared<RouteScale>();
+  const std::shared_ptr<const RouteScale> shared = route;
   const StepMass mass{0, {1}};
   DistanceMoved distance;
-  EXPECT_FALSE(distance.Update({&route, 1}, {&mass, 1}, {}));
-  route.sides[0].emplace().usual_readings = {100};
-  EXPECT_FALSE(distance.Update({&route, 1}, {&mass, 1}, {}));
+  EXPECT_FALSE(distance.Update({&shared, 1}, {&mass, 1}, {}));
+  route->sides[0].emplace().usual_readings = {100};
+  EXPECT_FALSE(distance.Update({&shared, 1}, {&mass, 1}, {}));
 }
 
 }  // namespace

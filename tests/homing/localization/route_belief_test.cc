@@ -94,7 +94,7 @@ TEST(RouteBeliefTest, TheOdometerSetsTheSpeed) {
     const std::vector<float> factors(400, 1.0F);
     const std::vector<std::int16_t> ratios(400, ratio);
     for (int i = 0; i < 5; ++i) belief.Weigh(factors, ratios, SpeedEvidence(0.02), kBothWays);
-    EXPECT_NEAR(std::log2(belief.MeanSpeed().absolute / speed), 0, 0.3) << speed;
+    EXPECT_NEAR(std::log2(belief.mean_speed().absolute / speed), 0, 0.3) << speed;
   }
 }
 

@@ -118,7 +118,7 @@ double SharedAtTheEnd(const JourneyMap& map, Seen seen) {
     BelievedInstant now{.journey = 0, .step = step};
     now.seen[0] = {.profile = seen(step), .covered = &all};
     now.moved = step - 20;
-    shared = change.Add({&journey, 1}, {&route, 1}, now);
+    shared = change.Add({&journey, 1}, route, now);
     if (step == 20) {
       EXPECT_FALSE(shared);
     }
