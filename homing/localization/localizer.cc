@@ -186,9 +186,9 @@ void Localizer::ReportLandmark(std::span<const JourneyRef> journeys, const SeenS
   }
   result.step_sequence =
       journeys[static_cast<std::size_t>(position.journey)].map->sequence(*position.step);
-  const auto best = MatcherOfThread().FindBestWithin(journeys[static_cast<std::size_t>(position.journey)],
-                                            position.interval_first, position.interval_last, seen,
-                                            options_.match.threshold);
+  const auto best = MatcherOfThread().FindBestWithin(
+      journeys[static_cast<std::size_t>(position.journey)], position.interval_first,
+      position.interval_last, seen, options_.match.threshold);
   if (best) {
     result.landmark = best->landmark;
     result.similarity = best->similarity.p_t;

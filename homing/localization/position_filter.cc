@@ -123,8 +123,8 @@ void PositionFilter::Predict(Motion motion) {
     RouteBelief& belief = beliefs_[i];
     if (motion == Motion::kMoving && started_) {
       const double before = belief.Mass();
-      lost += before *
-              (after_gap_ ? belief.MoveUnseen(restart) : belief.Move(speeds_[i]->change(), restart));
+      lost += before * (after_gap_ ? belief.MoveUnseen(restart)
+                                   : belief.Move(speeds_[i]->change(), restart));
     } else if (motion == Motion::kTurning) {
       belief.Turn(restart);
     }
@@ -224,6 +224,7 @@ void PositionFilter::CorrectByProfiles(std::span<const JourneyRef> journeys,
   Weigh(profiles, weight, [this](std::size_t i) { return profile_likelihood_.of(i); });
   AddMembership(weight, SharedBy(journeys, moved), fit);
   profile_likelihood_.Learn();
+  profile_likelihood_.Release();
   has_offset_ = true;
   FocusIfKnown();
 }

@@ -239,7 +239,9 @@ void ProfileLikelihood::Learn() {
   }
   belief().anywhere = PathOffsets::Mix(mass);
   ++instants_;
-  // What only this instant needed is freed: of a thousand robots few compare at once.
+}
+
+void ProfileLikelihood::Release() {
   for (auto& views : distances_) views.fill({});
   likelihoods_.clear();
   fits_.clear();

@@ -40,6 +40,10 @@ class ProfileLikelihood {
   // Ends the instant: updates the belief about the offset.
   void Learn();
 
+  // Frees what only this instant needed: few of a thousand robots compare at the same time.
+  // REQUIRES: no of() and no Believed() until the next Compute.
+  void Release();
+
   // Likelihood ratio by predicted step. Sides without profiles are neutral: 1.
   std::span<const float> of(std::size_t journey) const { return likelihoods_[journey]; }
   // Sides that were compared.

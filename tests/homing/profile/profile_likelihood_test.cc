@@ -185,6 +185,41 @@ TEST_F(ProfileLikelihoodTest, ALongForeignWayLeavesTheOddsBounded) {
   EXPECT_LT(position.unknown_probability, 0.999);
 }
 
+// A scene that changes over several steps: an observation of one camera says little, and what a
+// restart gives to each step is never weighed away.
+TEST_F(ProfileLikelihoodTest, AKnownPlaceIsHeldByFewSteps) {
+  constexpr int kSteps = 400;
+  constexpr int kScene = 8;
+  const auto field_at = [this](int step) {
+    FlowField field = fields_[static_cast<std::size_t>(step / kScene)];
+    const FlowField& next = fields_[static_cast<std::size_t>(step / kScene + 1)];
+    const std::size_t taken =
+        field.vectors.size() * static_cast<std::size_t>(step % kScene) / kScene;
+    std::copy_n(next.vectors.begin(), std::min(taken, next.vectors.size()), field.vectors.begin());
+    return field;
+  };
+  JourneyMap map;
+  for (int step = 0; step < kSteps; ++step) {
+    JourneyStep recorded{
+        .step = step, .motion = Motion::kMoving, .fingerprints = {}, .profiles = {}};
+    recorded.profiles[0] = MakeFlowProfile(field_at(step));
+    ASSERT_TRUE(map.Append(recorded).ok());
+  }
+  const JourneyRef ref{&name_, &map};
+  PositionFilter filter{PositionOptions{}};
+  std::size_t held = 0;
+  for (int step = 100; step < 200; ++step) {
+    SeenProfiles seen;
+    seen[0].emplace(field_at(step));
+    const Position position = filter.Update({&ref, 1}, Motion::kMoving, {}, seen);
+    held = filter.masses()[0].mass.size();
+    if (step < 140) continue;
+    ASSERT_TRUE(position.step);
+    EXPECT_NEAR(static_cast<double>(*position.step), step, 10);
+  }
+  EXPECT_LT(held, kSteps / 4);
+}
+
 // The belief loses nearly all its mass beyond the ends of a short map, time and again.
 TEST_F(ProfileLikelihoodTest, ALongForeignWayOnAShortMapKeepsTheNumbersFinite) {
   JourneyMap map;
