@@ -33,6 +33,8 @@ constexpr double kFarMass = 1e-9;
 constexpr double kFarRestarts = 2;
 constexpr double kKnownOnRoute = 0.95;
 constexpr double kKnownPlace = 0.999;
+// Steps an observation up to which the filter's speeds follow the robot. Beyond, the belief jumps.
+constexpr double kFollowedSpeed = 0.75 * kSpeeds.back();
 // The paper's P_T alone: log odds by observation, bounded by RouteMembership.
 constexpr double kLandmarkWeight = 1;
 // What an observation after a gap weighs: its few vectors are seldom those of the place.
@@ -250,7 +252,7 @@ void PositionFilter::Correct(std::span<const JourneyRef> journeys, const SeenSid
 }
 
 void PositionFilter::FocusIfKnown() {
-  const bool known = membership_.OnRoute() >= kKnownOnRoute &&
+  const bool known = membership_.OnRoute() >= kKnownOnRoute && speed_.absolute <= kFollowedSpeed &&
                      FindBest(options_.tolerance_steps).window.mass >= kKnownPlace;
   if (!known) {
     Unfocus();

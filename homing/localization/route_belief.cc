@@ -23,7 +23,7 @@ constexpr double kTurnMotion = 0.05;
 // Keeps denormal numbers out.
 constexpr float kLeastMass = 1e-30F;
 // No motion goes further than this, steps.
-constexpr std::int64_t kFurthest = 18;
+constexpr std::int64_t kFurthest = 10;
 // Steps of a lane that cost no more memory than fewer would.
 constexpr std::size_t kRoom = 64;
 

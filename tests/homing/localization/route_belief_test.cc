@@ -45,7 +45,7 @@ TEST(RouteBeliefTest, AWayThatTheFlowDoesNotShowMayBeLong) {
   };
   EXPECT_GT(between(110, 140), 0.15);
   EXPECT_GT(between(60, 90), 0.15);
-  EXPECT_NEAR(between(31, 169), 1, 1e-3);
+  EXPECT_NEAR(between(60, 140), 1, 1e-3);
 }
 
 TEST(RouteBeliefTest, DirectionsAreWeighed) {
@@ -56,7 +56,7 @@ TEST(RouteBeliefTest, DirectionsAreWeighed) {
 }
 
 TEST(RouteBeliefTest, MotionKeepsMassAwayFromTheEnds) {
-  RouteBelief belief = PeakAt(400, 200);
+  RouteBelief belief = PeakAt(200, 100);
   EXPECT_NEAR(belief.Mass(), 1, 1e-5);
   for (int i = 0; i < 10; ++i) {
     belief.Move(kChange);
@@ -65,7 +65,7 @@ TEST(RouteBeliefTest, MotionKeepsMassAwayFromTheEnds) {
 }
 
 TEST(RouteBeliefTest, MoveLosesMassOnlyBeyondTheEnds) {
-  RouteBelief inside = PeakAt(400, 200);
+  RouteBelief inside = PeakAt(200, 100);
   for (int i = 0; i < 10; ++i) {
     EXPECT_NEAR(inside.Move(kChange), 0, 1e-4);
   }
@@ -88,7 +88,7 @@ TEST(RouteBeliefTest, AddPutsMassAtThePlaceAndInTheDirectionAsked) {
 }
 
 TEST(RouteBeliefTest, TheOdometerSetsTheSpeed) {
-  for (const double speed : {0.25, 1.0, 4.0, 16.0}) {
+  for (const double speed : {0.25, 1.0, 4.0}) {
     RouteBelief belief = PeakAt(400, 200);
     const auto ratio = SpeedEvidence::IndexOf(static_cast<int>(20 * std::log2(speed)));
     const std::vector<float> factors(400, 1.0F);
@@ -108,13 +108,13 @@ TEST(RouteBeliefTest, MassThatRunsOffIsGone) {
 }
 
 TEST(RouteBeliefTest, HalfMovesTowardsHomeAndHalfAway) {
-  RouteBelief belief = PeakAt(600, 300);
+  RouteBelief belief = PeakAt(400, 200);
   for (int i = 0; i < 30; ++i) {
     belief.Move(kChange);
   }
-  const auto before = belief.DirectionMass(0, 299);
-  const auto after = belief.DirectionMass(301, 599);
-  // Of the sixteen speeds one is standing, and the fastest have left the route.
+  const auto before = belief.DirectionMass(0, 199);
+  const auto after = belief.DirectionMass(201, 399);
+  // Of the fourteen speeds one is standing, and the fastest have left the route.
   EXPECT_GT(before[0], 0.4);
   EXPECT_LT(before[1], 0.02);
   EXPECT_NEAR(after[1], before[0], 0.01);
@@ -132,8 +132,8 @@ TEST(RouteBeliefTest, SpeedsMoveByTheirStepsOnAverage) {
   for (std::size_t s = 100 + 60 - 12; s <= 100 + 60 + 12; ++s) {
     near_one += double{mass[s]};
   }
-  // One of thirty-two states moves so: all speeds are alike before the odometer is read.
-  EXPECT_NEAR(near_one, 1.0 / 32, 0.02);
+  // One of twenty-eight states moves so: all speeds are alike before the odometer is read.
+  EXPECT_NEAR(near_one, 1.0 / 28, 0.02);
 }
 
 TEST(RouteBeliefTest, ARobotSeldomChangesItsSpeed) {
@@ -167,7 +167,7 @@ TEST(RouteBeliefTest, AFocusHoldsTheSameAsAllSteps) {
   focused.Focus(1e-5, focused.Masses());
   EXPECT_TRUE(focused.IsFocused());
   EXPECT_EQ(focused.focus_size(), 1);
-  for (int i = 0; i < 12; ++i) {
+  for (int i = 0; i < 20; ++i) {
     all.Move(kChange, 1e-8);
     focused.Move(kChange, 1e-8);
   }
