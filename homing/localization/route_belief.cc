@@ -24,8 +24,6 @@ constexpr double kTurnMotion = 0.05;
 constexpr float kLeastMass = 1e-30F;
 // No motion goes further than this, steps.
 constexpr std::int64_t kFurthest = 10;
-// Steps of a lane that cost no more memory than fewer would.
-constexpr std::size_t kRoom = 64;
 
 // A speed between two whole numbers moves by either so that it is right on average.
 Displacement DisplacementOf(double speed) {
@@ -68,17 +66,16 @@ void RouteBelief::Grow(std::int64_t step_count, double mass) {
   if (focused) {
     return;
   }
-  ForEachLane([&](Lane& lane, double fraction) {
-    lane.resize(static_cast<std::size_t>(step_count), static_cast<float>(mass * fraction / scale_));
-  });
+  Hold(0, step_count, mass / scale_);
 }
 
 void RouteBelief::AddToEach(double mass) {
   background_ += mass / scale_;
-  ForEachLane([&](Lane& lane, double fraction) {
-    const auto each = static_cast<float>(mass * fraction / scale_);
-    for (float& value : lane) value += each;
-  });
+  const auto each = static_cast<float>(mass * kPrior / scale_);
+  for (float& value : lanes_) value += each;
+  for (Lane& way : ways_) {
+    for (float& value : way) value += each * kSpeedCount;
+  }
 }
 
 void RouteBelief::Add(const Place& place) {
@@ -86,7 +83,7 @@ void RouteBelief::Add(const Place& place) {
   const std::int64_t last = std::min(step_count_ - 1, place.last);
   const int ways = (place.homeward ? 1 : 0) + (place.outward ? 1 : 0);
   const double each = place.mass / scale_ / ways / static_cast<double>(last - first + 1);
-  const auto add = [first, last](Lane& lane, double mass) {
+  const auto add = [first, last](std::span<float> lane, double mass) {
     for (std::int64_t step = first; step <= last; ++step) {
       lane[static_cast<std::size_t>(step)] += static_cast<float>(mass);
     }
@@ -95,14 +92,32 @@ void RouteBelief::Add(const Place& place) {
     if (!(way == 0 ? place.homeward : place.outward)) continue;
     add(ways_[way], each);
     for (std::size_t speed = 0; speed < kSpeedCount; ++speed) {
-      add(lanes_[way * kSpeedCount + speed], each / kSpeedCount);
+      add(LaneOf(way * kSpeedCount + speed), each / kSpeedCount);
     }
   }
 }
 
-void RouteBelief::ForEachLane(const std::function<void(Lane& lane, double fraction)>& change) {
-  for (Lane& lane : lanes_) change(lane, kPrior);
-  for (Lane& way : ways_) change(way, kPrior * kSpeedCount);
+void RouteBelief::Hold(std::int64_t first, std::int64_t size, double mass) {
+  const std::int64_t begin = std::max(first, first_);
+  const std::int64_t end = std::min(first + size, first_ + focus_size());
+  const auto held = [&](std::span<const float> before, double fraction, std::span<float> now) {
+    std::ranges::fill(now, static_cast<float>(mass * fraction));
+    if (begin >= end) return;
+    std::copy(before.begin() + (begin - first_), before.begin() + (end - first_),
+              now.begin() + (begin - first));
+  };
+  const auto count = static_cast<std::size_t>(size);
+  std::vector<float> lanes(kLanes * count);
+  for (std::size_t lane = 0; lane < kLanes; ++lane) {
+    held(LaneOf(lane), kPrior, std::span(lanes).subspan(lane * count, count));
+  }
+  for (Lane& way : ways_) {
+    Lane all(count);
+    held(way, kPrior * kSpeedCount, all);
+    way = std::move(all);
+  }
+  lanes_ = std::move(lanes);
+  first_ = first;
 }
 
 float RouteBelief::Beyond(std::int64_t step) const {
@@ -110,7 +125,7 @@ float RouteBelief::Beyond(std::int64_t step) const {
 }
 
 void RouteBelief::Mix(std::size_t lane, const Motion& motion, const Carried& carried,
-                      const Lane& slower, Lane& mixed) const {
+                      std::span<const float> slower, Lane& mixed) const {
   const std::size_t speed = lane % kSpeedCount;
   const std::int64_t start = carried.begin - kFurthest;
   mixed.resize(static_cast<std::size_t>(carried.end - carried.begin + 2 * kFurthest));
@@ -118,11 +133,11 @@ void RouteBelief::Mix(std::size_t lane, const Motion& motion, const Carried& car
   for (std::int64_t i = 0; i < held; ++i) {
     mixed[static_cast<std::size_t>(i)] = Beyond(start + i);
   }
-  const Lane& same = lanes_[lane];
+  const std::span<const float> same = LaneOf(lane);
   MixLanes({.same = same.data(),
             .slower = speed > 0 ? slower.data() : same.data(),
-            .faster = lanes_[speed + 1 < kSpeedCount ? lane + 1 : lane].data(),
-            .back = lanes_[(lane + kSpeedCount) % kLanes].data(),
+            .faster = LaneOf(speed + 1 < kSpeedCount ? lane + 1 : lane).data(),
+            .back = LaneOf((lane + kSpeedCount) % kLanes).data(),
             .all = ways_[lane / kSpeedCount].data()},
            motion.mix, std::span(mixed).subspan(static_cast<std::size_t>(held), same.size()));
   for (std::int64_t i = held + std::ssize(same); i < std::ssize(mixed); ++i) {
@@ -131,7 +146,7 @@ void RouteBelief::Mix(std::size_t lane, const Motion& motion, const Carried& car
 }
 
 void RouteBelief::MoveMixed(std::size_t lane, const Motion& motion, double restart,
-                            const Lane& mixed, Lane& moved) const {
+                            const Lane& mixed, std::span<float> moved) const {
   const Displacement& displacement = motion.displacements[lane % kSpeedCount];
   std::array<float, 4> taps = displacement.probabilities;
   for (float& tap : taps) {
@@ -143,13 +158,12 @@ void RouteBelief::MoveMixed(std::size_t lane, const Motion& motion, double resta
     std::ranges::reverse(taps);
     from = kFurthest - displacement.first - 3;
   }
-  moved.resize(mixed.size() - 2 * kFurthest);
   MoveLane(std::span(mixed).subspan(static_cast<std::size_t>(from)), taps,
            static_cast<float>(restart * kPrior), moved);
 }
 
-// Speed by speed, both directions at once: only the speed before is needed as it was. Less memory
-// is gone through than with all lanes twice.
+// Speed by speed, both directions at once: only the speed before is needed as it was. So a window
+// of the same size is changed in place, and less memory is gone through than with all lanes twice.
 void RouteBelief::Carry(const Motion& motion, double restart) {
   if (focus_size() == 0) {
     AddToEach(restart);
@@ -157,22 +171,27 @@ void RouteBelief::Carry(const Motion& motion, double restart) {
   }
   const Carried carried{.begin = std::max<std::int64_t>(0, first_ - kFurthest),
                         .end = std::min(step_count_, first_ + focus_size() + kFurthest)};
-  std::array<Lane, 2> slower;
-  std::array<Lane, 2> mixed;
-  std::array<Lane, 2> ways;
-  for (Lane& way : ways) way.resize(static_cast<std::size_t>(carried.end - carried.begin));
+  const auto size = static_cast<std::size_t>(carried.end - carried.begin);
+  std::vector<float> wider(size == ways_[0].size() ? 0 : kLanes * size);
+  const std::span<float> moved = wider.empty() ? std::span(lanes_) : std::span(wider);
+  std::array<Lane, 2> slower, mixed, ways;
+  for (std::size_t way = 0; way < ways.size(); ++way) {
+    slower[way].resize(ways_[0].size());
+    ways[way].resize(size);
+  }
   for (std::size_t speed = 0; speed < kSpeedCount; ++speed) {
     const std::array lanes = {speed, speed + kSpeedCount};
     for (std::size_t way = 0; way < lanes.size(); ++way) {
       Mix(lanes[way], motion, carried, slower[way], mixed[way]);
     }
     for (std::size_t way = 0; way < lanes.size(); ++way) {
-      Lane& lane = lanes_[lanes[way]];
-      slower[way].swap(lane);
-      MoveMixed(lanes[way], motion, restart, mixed[way], lane);
-      AddLane(lane, ways[way]);
+      std::ranges::copy(LaneOf(lanes[way]), slower[way].begin());
+      const std::span<float> to = moved.subspan(lanes[way] * size, size);
+      MoveMixed(lanes[way], motion, restart, mixed[way], to);
+      AddLane(to, ways[way]);
     }
   }
+  if (!wider.empty()) lanes_ = std::move(wider);
   ways_ = std::move(ways);
   first_ = carried.begin;
   background_ = background_ * scale_ + restart;
@@ -223,7 +242,7 @@ StepMass RouteBelief::Weigh(std::span<const float> factors, std::span<const std:
   for (std::size_t speed = 0; speed < kSpeedCount; ++speed) {
     WeightsOf(factors, ratios, speeds.of(speed), weights);
     for (std::size_t way = 0; way < ways_.size(); ++way) {
-      Lane& lane = lanes_[way * kSpeedCount + speed];
+      const std::span<float> lane = LaneOf(way * kSpeedCount + speed);
       WeighLane(weights, static_cast<float>(scale_ * directions[way]), kLeastMass, lane,
                 ways_[way]);
       const double of_lane = SumOf(lane);
@@ -252,27 +271,14 @@ void RouteBelief::Focus(double least, const StepMass& mass) {
         std::accumulate(mass.mass.begin(), begin, 0.0) + std::accumulate(end, mass.mass.end(), 0.0);
     background_ = beyond / (scale_ * static_cast<double>(step_count_ - kept));
   }
-  ForEachLane([&](Lane& lane, double /*fraction*/) {
-    std::shift_left(lane.begin(), lane.begin() + skipped + kept, skipped);
-    lane.resize(static_cast<std::size_t>(kept));
-    // Where few steps are left, their room is not kept for all.
-    if (lane.capacity() > 2 * lane.size() + kRoom) {
-      lane.shrink_to_fit();
-    }
-  });
-  first_ += skipped;
+  if (kept < std::ssize(mass.mass)) Hold(first_ + skipped, kept, 0);
 }
 
 void RouteBelief::Unfocus() {
   if (!IsFocused()) {
     return;
   }
-  ForEachLane([&](Lane& lane, double fraction) {
-    Lane all(static_cast<std::size_t>(step_count_), static_cast<float>(background_ * fraction));
-    std::ranges::copy(lane, all.begin() + first_);
-    lane = std::move(all);
-  });
-  first_ = 0;
+  Hold(0, step_count_, background_);
 }
 
 StepMass RouteBelief::Masses() const {

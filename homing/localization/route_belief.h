@@ -5,7 +5,6 @@
 
 #include <array>
 #include <cstdint>
-#include <functional>
 #include <span>
 #include <vector>
 
@@ -21,7 +20,7 @@ class RouteBelief {
   std::int64_t step_count() const { return step_count_; }
   // The active window: focus_size() steps from first_step() on. At first all steps.
   std::int64_t first_step() const { return first_; }
-  std::int64_t focus_size() const { return static_cast<std::int64_t>(lanes_[0].size()); }
+  std::int64_t focus_size() const { return static_cast<std::int64_t>(ways_[0].size()); }
   bool IsFocused() const { return focus_size() < step_count_; }
 
   // Appends steps, each with `mass` spread over directions and speeds like the prior; with the mass
@@ -93,19 +92,26 @@ class RouteBelief {
   void Carry(const Motion& motion, double restart);
   // Copies a lane, mixed with its neighbours, with what lies on either side of the steps of
   // `carried`, into `mixed`. `slower`: the lane of the speed before, as it was.
-  void Mix(std::size_t lane, const Motion& motion, const Carried& carried, const Lane& slower,
-           Lane& mixed) const;
+  void Mix(std::size_t lane, const Motion& motion, const Carried& carried,
+           std::span<const float> slower, Lane& mixed) const;
   // Moves a mixed lane to where it is now.
   void MoveMixed(std::size_t lane, const Motion& motion, double restart, const Lane& mixed,
-                 Lane& moved) const;
+                 std::span<float> moved) const;
   float Beyond(std::int64_t step) const;
-  // Lanes and their sums, each with the fraction of a step's mass that it gets in the prior.
-  void ForEachLane(const std::function<void(Lane& lane, double fraction)>& change);
+  std::span<float> LaneOf(std::size_t lane) {
+    return std::span(lanes_).subspan(lane * ways_[0].size(), ways_[0].size());
+  }
+  std::span<const float> LaneOf(std::size_t lane) const {
+    return std::span(lanes_).subspan(lane * ways_[0].size(), ways_[0].size());
+  }
+  // Holds the `size` steps from `first` on one by one. Those that are new get `mass`.
+  void Hold(std::int64_t first, std::int64_t size, double mass);
 
   std::int64_t step_count_ = 0;
   std::int64_t first_ = 0;
-  // Masses by lane, and by step from first_ on.
-  std::array<Lane, kLanes> lanes_;
+  // Masses by lane, and by step from first_ on. In one piece, which is given back when the place is
+  // known: of many small pieces some would stay in use in each page.
+  std::vector<float> lanes_;
   // Sums of the lanes of each direction: other loops need not go through all lanes.
   std::array<Lane, 2> ways_;
   Speed mean_speed_;

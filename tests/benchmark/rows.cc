@@ -117,7 +117,7 @@ void AddLoadRow(const LoadBounds& load, Table& table) {
 void AddLoadRows(Table& table) {
   AddLoadRow({"record_1000", "echo_1000", 3, 2.2, 24}, table);
   AddLoadRow({"record_1000_tls", "echo_1000_tls", 3, 2.2, 24}, table);
-  AddLoadRow({"localize_1000", "echo_1000_ramp", 4, 2.5}, table);
+  AddLoadRow({"localize_1000", "echo_1000_ramp", 4, 2.5, 128}, table);
   const std::string at_once = "localize_1000_at_once";
   table.AtMost(at_once + "_first_answer_ms", table.Counter(at_once, "first_answer_ms"), 2000,
                "all begin in one instant: the last robot's first answer");
