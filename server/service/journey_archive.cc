@@ -16,6 +16,7 @@
 #include "homing/landmark/profile_code.h"
 #include "homing/v1/journey_map.pb.h"
 #include "proto/wire/enum_conversion.h"
+#include "proto/wire/message_parts.h"
 #include "proto/wire/settings_conversion.h"
 
 namespace homing::server {
@@ -33,6 +34,8 @@ constexpr std::int64_t kStepsBetweenChecks = 10'000;
 // Eighteen hours at thirty steps a second. Steps without fingerprints take no room in the file, but
 // a hundred bytes each while a robot localises on them.
 constexpr std::int64_t kMostImportedSteps = 2'000'000;
+// The parts of a file: two flow profiles a step, and the settings.
+constexpr int kMostParts = 2 * static_cast<int>(kMostImportedSteps) + 100;
 
 absl::Status Damaged(const std::string& what) {
   return FieldError("chunk", absl::StrCat("journey file: ", what));
@@ -105,6 +108,11 @@ absl::StatusOr<v1::JourneyMap> Unwrap(std::string_view bytes) {
   }
   v1::JourneyMap message;
   const std::string_view body = content.substr(kHeaderBytes);
+  google::protobuf::io::ArrayInputStream counted(body.data(), static_cast<int>(body.size()));
+  // An empty profile takes twenty times its size once it is parsed.
+  if (wire::CountParts(*message.GetDescriptor(), &counted, kMostParts).value_or(0) > kMostParts) {
+    return Damaged(absl::StrCat("has more than ", kMostParts, " profiles"));
+  }
   if (!message.ParseFromArray(body.data(), static_cast<int>(body.size()))) {
     return Damaged("content cannot be parsed");
   }

@@ -196,6 +196,13 @@ TEST(JourneyArchive, RefusesMillionsOfEmptySteps) {
   ExpectRefused(Forge([](v1::JourneyMap& m) { m.set_step_count(2'000'001); }), "must be 0 to");
 }
 
+TEST(JourneyArchive, CountsProfilesBeforeItReadsThem) {
+  ExpectRefused(Forge([](v1::JourneyMap& m) {
+                  for (int i = 0; i < 4'000'200; ++i) m.add_left_profiles();
+                }),
+                "has more than 4000100 profiles");
+}
+
 TEST(JourneyArchive, RefusesContentThatNoMapHas) {
   ExpectRefused(Forge([](v1::JourneyMap& m) { m.set_landmarks(0, 1000); }), "landmarks[0] is 1000");
   ExpectRefused(Forge([](v1::JourneyMap& m) { m.set_landmarks(0, -1); }), "landmarks[0] is -1");
