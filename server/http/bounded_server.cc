@@ -4,8 +4,10 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <cstdint>
 #include <cstdlib>
+#include <functional>
 #include <limits>
 #include <utility>
 
@@ -16,6 +18,8 @@ namespace {
 
 constexpr std::chrono::seconds kIdleTime{2};
 constexpr std::chrono::seconds kRequestTime{5};
+// Time of a silent client while others wait for a thread.
+constexpr std::chrono::milliseconds kHurry{100};
 constexpr std::size_t kMaxHeaders = 64 << 10;
 // Most requests of one connection.
 constexpr std::size_t kMaxRequests = 1000;
@@ -29,10 +33,27 @@ std::uint64_t BodyBytes(const httplib::Request& request) {
   return std::strtoull(request.get_header_value("Content-Length").c_str(), nullptr, 10);
 }
 
+// Counts the connections that no thread serves yet.
+class CountingPool final : public httplib::ThreadPool {
+ public:
+  CountingPool(std::size_t threads, std::atomic<int>* waiting)
+      : ThreadPool(threads), waiting_(waiting) {}
+  void enqueue(std::function<void()> serve) override {
+    ++*waiting_;
+    ThreadPool::enqueue([waiting = waiting_, serve = std::move(serve)] {
+      --*waiting;
+      serve();
+    });
+  }
+
+ private:
+  std::atomic<int>* const waiting_;
+};
+
 }  // namespace
 
 BoundedServer::BoundedServer() {
-  new_task_queue = [] { return new httplib::ThreadPool(kThreads); };
+  new_task_queue = [this] { return new CountingPool(kThreads, &waiting_); };
   set_tcp_nodelay(true);
   // The library's own options let a second server share the port silently.
   set_socket_options([](socket_t socket) {
@@ -103,7 +124,8 @@ bool BoundedServer::Serve(socket_t socket) {
     const MutexLock lock(mutex_);
     context = context_;
   }
-  TimedStream stream(socket, context.get(), {kMaxHeaders + kMaxBody, kRequestTime, kIdleTime});
+  TimedStream stream(socket, context.get(),
+                     {kMaxHeaders + kMaxBody, kRequestTime, kIdleTime, kHurry, &waiting_});
   if (!stream.Begin()) return false;
   bool served = true;
   bool closed = false;

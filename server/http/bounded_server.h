@@ -5,6 +5,7 @@
 #include <httplib.h>
 #include <openssl/ssl.h>
 
+#include <atomic>
 #include <cstddef>
 #include <map>
 #include <memory>
@@ -48,6 +49,8 @@ class BoundedServer final : public httplib::Server {
   std::shared_ptr<SSL_CTX> context_ HOMING_GUARDED_BY(mutex_);
   std::map<std::string, std::size_t> connections_ HOMING_GUARDED_BY(mutex_);
   std::set<socket_t> sockets_ HOMING_GUARDED_BY(mutex_);
+  // Connections that no thread serves yet.
+  std::atomic<int> waiting_ = 0;
   bool stopping_ HOMING_GUARDED_BY(mutex_) = false;
 };
 

@@ -17,6 +17,9 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::steady_clock;
 
+// Interval at which a wait looks for other connections that wait.
+constexpr milliseconds kGlance{50};
+
 // Converts an address to the form that the library's requests show.
 void Describe(const sockaddr_storage& address, socklen_t size, std::string* ip, int* port) {
   std::array<char, NI_MAXHOST> host{};
@@ -52,10 +55,20 @@ bool TimedStream::Await(short events, Time end) const {
   return left.count() > 0 && ::poll(&file, 1, static_cast<int>(left.count())) > 0;
 }
 
+bool TimedStream::AwaitBytes(Time end) const {
+  const Time hurry = steady_clock::now() + limits_.hurry;
+  while (!Await(POLLIN, std::min(end, steady_clock::now() + kGlance))) {
+    const Time now = steady_clock::now();
+    const bool others = limits_.waiting != nullptr && *limits_.waiting > 0;
+    if (now >= end || (others && now >= hurry)) return false;
+  }
+  return true;
+}
+
 bool TimedStream::AwaitSsl(int result, Time end) {
   const int wanted = SSL_get_error(ssl_.get(), result);
   ERR_clear_error();
-  if (wanted == SSL_ERROR_WANT_READ) return Await(POLLIN, end);
+  if (wanted == SSL_ERROR_WANT_READ) return AwaitBytes(end);
   return wanted == SSL_ERROR_WANT_WRITE && Await(POLLOUT, end);
 }
 
@@ -73,7 +86,7 @@ bool TimedStream::AwaitRequest() {
   // The library answers a truncated request, and would then read the next one.
   if (broken_) return false;
   const bool has_bytes = first_ < last_ || (ssl_ && SSL_pending(ssl_.get()) > 0);
-  if (!has_bytes && !Await(POLLIN, steady_clock::now() + limits_.idle_time)) return false;
+  if (!has_bytes && !AwaitBytes(steady_clock::now() + limits_.idle_time)) return false;
   bytes_left_ = limits_.request_bytes;
   request_end_ = steady_clock::now() + limits_.request_time;
   return true;
@@ -98,7 +111,7 @@ ssize_t TimedStream::Receive(char* bytes, std::size_t size, Time end) {
       const ssize_t n = ::recv(socket_, bytes, size, MSG_DONTWAIT);
       if (n >= 0) return n;
       if (errno != EINTR && errno != EAGAIN && errno != EWOULDBLOCK) return -1;
-      if (!Await(POLLIN, end)) return -1;
+      if (!AwaitBytes(end)) return -1;
     }
     // A client that sends one byte now and then must not hold a thread.
     if (steady_clock::now() >= end) return -1;

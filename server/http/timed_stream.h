@@ -6,6 +6,7 @@
 #include <httplib.h>
 
 #include <array>
+#include <atomic>
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
@@ -26,6 +27,10 @@ class TimedStream final : public httplib::Stream {
     std::chrono::milliseconds request_time{};
     // Time between two requests.
     std::chrono::milliseconds idle_time{};
+    // Most time to wait for the client's next bytes while `*waiting` other connections, if any,
+    // wait for a thread.
+    std::chrono::milliseconds hurry{};
+    const std::atomic<int>* waiting = nullptr;
   };
 
   // `context` is null without TLS. Does not close `socket`.
@@ -57,6 +62,8 @@ class TimedStream final : public httplib::Stream {
   using Time = std::chrono::steady_clock::time_point;
 
   bool Await(short events, Time end) const;
+  // As Await, for bytes of the client, whom others that wait may cut short.
+  bool AwaitBytes(Time end) const;
   // Waits for the socket as the last SSL call, with this `result`, requires. False: the connection
   // has ended, or `end` has passed.
   bool AwaitSsl(int result, Time end);
