@@ -104,12 +104,11 @@ absl::StatusOr<std::string> ConsoleServer::State::Try(
     const std::function<absl::StatusOr<std::string>()>& open) {
   const auto now = std::chrono::steady_clock::now();
   const std::string& from = request.remote_addr;
-  if (!logins.MayTry(from, now)) {
+  auto cookie = open();
+  if (!cookie.ok() && !logins.MayFail(from, now)) {
     return absl::ResourceExhaustedError("too many logins from your address failed; wait a minute");
   }
-  auto cookie = open();
   spdlog::info("audit: {} from {}: {}", what, from, cookie.ok() ? "ok" : "refused");
-  if (!cookie.ok()) logins.NoteFailure(from, now);
   return cookie;
 }
 

@@ -14,14 +14,9 @@ std::map<std::string, LoginLimit::Failures>::iterator LoginLimit::Find(const std
   return found;
 }
 
-bool LoginLimit::MayTry(const std::string& address, Time now) {
+bool LoginLimit::MayFail(const std::string& address, Time now) {
   const MutexLock lock(mutex_);
-  return Find(address, now)->second.count < kMostFailures;
-}
-
-void LoginLimit::NoteFailure(const std::string& address, Time now) {
-  const MutexLock lock(mutex_);
-  ++Find(address, now)->second.count;
+  return ++Find(address, now)->second.count <= kMostFailures;
 }
 
 }  // namespace homing::server

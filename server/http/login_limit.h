@@ -1,4 +1,6 @@
-// Limits failed logins for each address: guessing takes long, and does not fill the log.
+// Limits failed logins for each address, so that guessing does not fill the log. A login that
+// succeeds is never refused: others may share its address, and a secret of 256 random bits cannot
+// be guessed.
 #ifndef SERVER_HTTP_LOGIN_LIMIT_H_
 #define SERVER_HTTP_LOGIN_LIMIT_H_
 
@@ -18,9 +20,8 @@ class LoginLimit {
   static constexpr int kMostFailures = 10;
   static constexpr std::chrono::minutes kPeriod{1};
 
-  // False: `address` had kMostFailures failures within kPeriod.
-  bool MayTry(const std::string& address, Time now);
-  void NoteFailure(const std::string& address, Time now);
+  // Counts a failure. False: `address` had kMostFailures before it within kPeriod.
+  bool MayFail(const std::string& address, Time now);
 
  private:
   struct Failures {
