@@ -74,6 +74,9 @@ void AddCoreGauges(const ServerOptions& options, ServiceCore* core) {
                     [core] { return static_cast<double>(core->export_bytes.load()); });
   metrics->AddGauge("homing_journeys_deleted", "Journeys deleted by age or quota since the start",
                     [core] { return static_cast<double>(core->quota.deleted()); });
+  metrics->AddGauge("homing_journeys_damaged",
+                    "Journeys that wildcards skip because they were found damaged",
+                    [core] { return static_cast<double>(core->catalog.damaged()); });
   metrics->AddGauge("homing_robots_lost", "Robots that localise and are off every route",
                     [core] { return static_cast<double>(core->fleet.Count().lost); });
   metrics->AddGauge("homing_robots_localizing", "Robots that localise",

@@ -1,5 +1,7 @@
 #include "server/catalog/fleet_index.h"
 
+#include <spdlog/spdlog.h>
+
 #include <algorithm>
 #include <utility>
 
@@ -59,6 +61,10 @@ absl::Status FleetIndex::Load(const storage::JourneyRecord& record) {
   const absl::StatusOr<JourneyMap> map = store_->LoadMap(record.name);
   if (absl::IsNotFound(map.status())) {
     // The journey was deleted after it was listed.
+    return absl::OkStatus();
+  }
+  if (absl::IsDataLoss(map.status())) {
+    spdlog::error("the index skips \"{}\": {}", record.name, std::string(map.status().message()));
     return absl::OkStatus();
   }
   HOMING_RETURN_IF_ERROR(map.status());

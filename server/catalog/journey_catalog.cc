@@ -1,5 +1,7 @@
 #include "server/catalog/journey_catalog.h"
 
+#include <spdlog/spdlog.h>
+
 #include <functional>
 #include <utility>
 
@@ -124,6 +126,10 @@ absl::Status JourneyCatalog::Delete(const std::string& name) {
     journey->EvictWriter(JourneyDeleted(name));
   }
   HOMING_RETURN_IF_ERROR(store_->DeleteJourney(name));
+  {
+    const MutexLock damaged_lock(damaged_mutex_);
+    damaged_.erase(name);
+  }
   if (index_ != nullptr) {
     index_->Deleted(name);
   }
@@ -184,8 +190,7 @@ absl::Status JourneyCatalog::AddIfCovered(const JourneyName& pattern, const std:
   }
   auto journey = FindOrOpen(name);
   if (!journey.ok()) {
-    // The journey was deleted after it was listed: a wildcard ignores that.
-    return absl::IsNotFound(journey.status()) ? absl::OkStatus() : journey.status();
+    return IsSkipped(name, journey.status()) ? absl::OkStatus() : journey.status();
   }
   journeys->push_back(*std::move(journey));
   return absl::OkStatus();
@@ -221,6 +226,22 @@ absl::StatusOr<LiveJourneys> JourneyCatalog::Resolve(const JourneyName& pattern,
   return journeys;
 }
 
+bool JourneyCatalog::IsSkipped(const std::string& name, const absl::Status& status) {
+  // The journey was deleted after it was listed.
+  if (absl::IsNotFound(status)) return true;
+  if (!absl::IsDataLoss(status)) return false;
+  const MutexLock lock(damaged_mutex_);
+  if (damaged_.insert(name).second) {
+    spdlog::error("wildcards skip \"{}\": {}", name, std::string(status.message()));
+  }
+  return true;
+}
+
+int JourneyCatalog::damaged() const {
+  const MutexLock lock(damaged_mutex_);
+  return static_cast<int>(damaged_.size());
+}
+
 absl::Status JourneyCatalog::LoadMap(const JourneyName& pattern, LiveJourney* journey) {
   if (journey->has_map()) {
     return absl::OkStatus();
@@ -241,17 +262,20 @@ absl::Status JourneyCatalog::LoadMap(const JourneyName& pattern, LiveJourney* jo
 absl::Status JourneyCatalog::LoadMaps(const JourneyName& pattern, LiveJourneys* journeys,
                                       const Cancellation* cancellation) {
   LiveJourneys loaded;
+  absl::Status last = NoneCovered(pattern);
   for (const std::shared_ptr<LiveJourney>& journey : *journeys) {
     HOMING_RETURN_IF_ERROR(CheckAwaited(cancellation));
     absl::Status status = LoadMap(pattern, journey.get());
     if (status.ok()) {
       loaded.push_back(journey);
-    } else if (!pattern.is_pattern() || !absl::IsNotFound(status)) {
+    } else if (!pattern.is_pattern() || !IsSkipped(journey->name(), status)) {
       return status;
+    } else if (absl::IsDataLoss(status)) {
+      last = status;
     }
   }
   if (loaded.empty()) {
-    return NoneCovered(pattern);
+    return last;
   }
   *journeys = std::move(loaded);
   return absl::OkStatus();

@@ -6,6 +6,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -92,13 +93,17 @@ class JourneyCatalog {
                                        const JourneyFilter& filter = nullptr,
                                        const Cancellation* cancellation = nullptr);
   // Loads the maps of journeys that Resolve returned for `pattern`. Of a wildcard, drops those that
-  // were deleted meanwhile. NOT_FOUND: none is left. RESOURCE_EXHAUSTED: the maps of a wildcard,
-  // and those in use by others, need more memory than cache_bytes. CANCELLED.
+  // were deleted meanwhile or are damaged. NOT_FOUND, DATA_LOSS: none is left. RESOURCE_EXHAUSTED:
+  // the maps of a wildcard, and those in use by others, need more memory than cache_bytes.
+  // CANCELLED.
   absl::Status LoadMaps(const JourneyName& pattern, LiveJourneys* journeys,
                         const Cancellation* cancellation = nullptr);
   // As LiveJourney::Claim. Loads no map. NOT_FOUND.
   absl::StatusOr<WriterClaim> Claim(const std::string& name, const std::string& writer_id,
                                     TimePoint now, WriterLease::Evict evict);
+
+  // Journeys that were found damaged, and are skipped by wildcards.
+  int damaged() const;
 
   // Other servers write to the store: a JourneyFollower must run.
   bool shared() const { return store_->shared(); }
@@ -117,6 +122,9 @@ class JourneyCatalog {
   absl::Status AddIfCovered(const JourneyName& pattern, const std::string& name,
                             LiveJourneys* journeys);
   absl::Status LoadMap(const JourneyName& pattern, LiveJourney* journey);
+  // A wildcard continues without the journey, whose map could not be read. Logs a damaged one,
+  // once.
+  bool IsSkipped(const std::string& name, const absl::Status& status);
   // NOT_FOUND: a journey of that name is neither in memory nor on disk.
   absl::StatusOr<std::shared_ptr<LiveJourney>> FindOrOpen(const std::string& name);
 
@@ -126,6 +134,8 @@ class JourneyCatalog {
   std::array<Mutex, 32> stripes_;
   JourneyCache cache_;
   MemoryBudget beliefs_;
+  mutable Mutex damaged_mutex_;
+  std::set<std::string> damaged_ HOMING_GUARDED_BY(damaged_mutex_);
 };
 
 }  // namespace homing::server

@@ -20,6 +20,9 @@ constexpr std::int64_t kBytesAStep = sizeof(float) * (2 * kSpeedCount + 6);
 // Greatest accepted offset relative to the distance of the seen objects; real ones are below 1.
 constexpr double kMostPathOffset = 1000;
 
+// Interval at which the caller's right to the journeys is checked again.
+constexpr std::chrono::seconds kRightsEvery{1};
+
 // Sets the size of one camera's image. Decodes the frame, since a compressed one may give no size.
 absl::Status MeasureView(const CameraView& view, const DecodeLimits& limits, int* width,
                          int* height) {
@@ -128,17 +131,29 @@ absl::Status LocalizationSession::StartAt(const LocalizationPrior& prior,
   return absl::OkStatus();
 }
 
-absl::Status LocalizationSession::LeaveDeleted() {
-  const auto deleted = [](const auto& journey) { return journey->deleted(); };
-  if (std::none_of(journeys_.begin(), journeys_.end(), deleted)) return absl::OkStatus();
+bool LocalizationSession::IsLost(const LiveJourney& journey, bool check_rights) const {
+  return journey.deleted() || (check_rights && query_.filter && !query_.filter(journey.record()));
+}
+
+absl::Status LocalizationSession::LeaveLost() {
+  const auto now = std::chrono::steady_clock::now();
+  const bool check_rights = now - rights_checked_ >= kRightsEvery;
+  if (check_rights) rights_checked_ = now;
+  const auto lost = [&](const auto& journey) { return IsLost(*journey, check_rights); };
+  if (std::none_of(journeys_.begin(), journeys_.end(), lost)) return absl::OkStatus();
+  const bool deleted = journeys_.front()->deleted();
   if (position_.step) {
     prior_ = LocalizationPrior{
         journey_name(position_.journey),
         {0, *position_.step, position_.direction, position_.probability, position_.path_offset}};
   }
-  std::erase_if(journeys_, deleted);
+  std::erase_if(journeys_, lost);
   if (journeys_.empty()) {
-    return absl::NotFoundError(absl::StrCat("journey: \"", pattern_.ToString(), "\" was deleted"));
+    const std::string name = absl::StrCat("journey: \"", pattern_.ToString(), "\"");
+    if (deleted) return absl::NotFoundError(absl::StrCat(name, " was deleted"));
+    return WithReason(
+        absl::PermissionDeniedError(absl::StrCat(name, ": its readers were changed; you are none")),
+        {"NOT_ALLOWED", {}});
   }
   localizer_.emplace(options_, limits_);
   started_ = false;
@@ -150,7 +165,7 @@ absl::StatusOr<Localization> LocalizationSession::Localize(const Observation& ob
   if (!localizer_) {
     HOMING_RETURN_IF_ERROR(Start(observation));
   }
-  HOMING_RETURN_IF_ERROR(LeaveDeleted());
+  HOMING_RETURN_IF_ERROR(LeaveLost());
   const MapsLock lock(journeys_);
   const std::vector<JourneyRef> journeys = lock.refs();
   if (!started_ && prior_) {

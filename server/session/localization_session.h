@@ -2,6 +2,7 @@
 #ifndef SERVER_SESSION_LOCALIZATION_SESSION_H_
 #define SERVER_SESSION_LOCALIZATION_SESSION_H_
 
+#include <chrono>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -82,14 +83,17 @@ class LocalizationSession {
   absl::Status CheckSequence(std::int64_t sequence);
   absl::Status Start(const Observation& observation);
   absl::Status StartAt(const LocalizationPrior& prior, std::span<const JourneyRef> journeys);
-  // Continues without the deleted journeys.
-  absl::Status LeaveDeleted();
+  // The journey was deleted, or the caller may not use it any more.
+  bool IsLost(const LiveJourney& journey, bool check_rights) const;
+  // Continues without the lost journeys. NOT_FOUND, PERMISSION_DENIED: none is left.
+  absl::Status LeaveLost();
 
   JourneyCatalog* const catalog_;
   const LocalizationQuery query_;
   const JourneyName pattern_;
   const DecodeLimits limits_;
   LiveJourneys journeys_;
+  std::chrono::steady_clock::time_point rights_checked_ = std::chrono::steady_clock::now();
   LocalizerOptions options_;
   std::optional<Localizer> localizer_;
   // The start of the localiser.

@@ -7,6 +7,7 @@
 #include "server/catalog/journey_selection.h"
 #include "server/catalog/model_catalog.h"
 #include "server/session/landmark_query.h"
+#include "storage/connection.h"
 #include "tests/server/session/session_fixture.h"
 
 namespace homing::server {
@@ -190,6 +191,63 @@ TEST_F(LocalizationSessionTest, RecordingAndLocalisingAtOnceLosesNothing) {
     EXPECT_EQ(one[0]->map().step_count(), kPlaces);
     ExpectSameMap(one[0]->map(), store_->LoadMap(name).value());
   }
+}
+
+TEST_F(LocalizationSessionTest, EndsOnceTheCallerMayNotUseTheJourneyAnyMore) {
+  RecordFlow(0, 5);
+  Create("robots/r/journeys/own");
+  RecordFlow(0, 5, "robots/r/journeys/own");
+  bool is_reader = true;
+  for (const char* pattern : {kJourney, "robots/r/journeys/-"}) {
+    is_reader = true;
+    HomingQuery query;
+    query.journey = pattern;
+    query.travel = Travel::kSame;
+    query.filter = [&](const storage::JourneyRecord& record) {
+      return is_reader || record.name != kJourney;
+    };
+    const auto session = LocalizationSession::Open(catalog_.get(), query, {});
+    ASSERT_THAT(session, IsOk());
+    EXPECT_THAT((*session)->Localize(test::FlowAt(0)), IsOk());
+    is_reader = false;
+    std::this_thread::sleep_for(std::chrono::milliseconds(1100));
+    const auto later = (*session)->Localize(test::FlowAt(1));
+    if (pattern == std::string(kJourney)) {
+      EXPECT_THAT(later,
+                  StatusIs(absl::StatusCode::kPermissionDenied, HasSubstr("readers were changed")));
+    } else {
+      // The other one is left.
+      ASSERT_THAT(later, IsOk());
+      EXPECT_EQ((*session)->journey_name(0), "robots/r/journeys/own");
+    }
+  }
+}
+
+TEST_F(LocalizationSessionTest, AWildcardSkipsADamagedJourney) {
+  RecordFlow(0, 5);
+  Create("robots/r/journeys/whole");
+  RecordFlow(0, 5, "robots/r/journeys/whole");
+  queue_.reset();
+  catalog_.reset();
+  store_.reset();
+  {
+    auto connection = storage::Connection::Open(folder_.File("homing.db"),
+                                                storage::Connection::Access::kReadWrite, 1000);
+    ASSERT_THAT((*connection)->Run([&] {
+      (*connection)->Execute("DELETE FROM steps WHERE journey_id = 1 AND step = 2");
+      return absl::OkStatus();
+    }),
+                IsOk());
+  }
+  OpenStore(0);
+  const auto session = Open("robots/r/journeys/-");
+  ASSERT_THAT(session, IsOk());
+  EXPECT_THAT((*session)->Localize(test::FlowAt(0)), IsOk());
+  EXPECT_EQ((*session)->journey_name(0), "robots/r/journeys/whole");
+  EXPECT_EQ(catalog_->damaged(), 1);
+  EXPECT_THAT(Open(kJourney), StatusIs(absl::StatusCode::kDataLoss, HasSubstr("damaged")));
+  ASSERT_THAT(catalog_->Delete(kJourney), IsOk());
+  EXPECT_EQ(catalog_->damaged(), 0);
 }
 
 class ModelCatalogTest : public SessionTest {};
