@@ -17,6 +17,9 @@ constexpr std::chrono::milliseconds kPulse{500};
 
 constexpr std::size_t kLeastWatcherLimit = 64;
 
+// Robots on the board before those that left no journey are removed.
+constexpr std::size_t kLeastEntryLimit = 10'000;
+
 // The watchers that still exist; the others are removed.
 std::vector<std::shared_ptr<FleetWatcher>> Alive(
     std::vector<std::weak_ptr<FleetWatcher>>* watchers) {
@@ -88,6 +91,7 @@ FleetBoard::~FleetBoard() {
 }
 
 FleetBoard::Entry& FleetBoard::EntryOf(const std::string& robot) {
+  if (entries_.size() >= entry_limit_ && entries_.count(robot) == 0) RemoveStrangers();
   Entry& entry = entries_[robot];
   if (entry.robot.name().empty()) {
     entry.robot.set_name(robot);
@@ -203,6 +207,25 @@ void FleetBoard::Watch(const std::string& robot, const std::weak_ptr<FleetWatche
   if (++watcher_count_ > watcher_limit_) RemoveOldWatchers();
   watchers_[robot].push_back(watcher);
   pulse_.NotifyAll();
+}
+
+// A caller may name any robot. Of those without a stream and a journey the older half is removed.
+void FleetBoard::RemoveStrangers() {
+  const auto is_stranger = [](const Entry& entry) {
+    return entry.robot.open_streams() == 0 && entry.robot.journey_count() == 0;
+  };
+  std::vector<std::int64_t> changes;
+  for (const auto& [name, entry] : entries_) {
+    if (is_stranger(entry)) changes.push_back(entry.changed);
+  }
+  if (!changes.empty()) {
+    const auto middle = changes.begin() + static_cast<std::ptrdiff_t>(changes.size() / 2);
+    std::nth_element(changes.begin(), middle, changes.end());
+    std::erase_if(entries_, [&](const auto& item) {
+      return is_stranger(item.second) && item.second.changed <= *middle;
+    });
+  }
+  entry_limit_ = std::max(kLeastEntryLimit, 2 * entries_.size());
 }
 
 // Publish removes the old watchers of a robot that changes; those of an idle robot would stay.

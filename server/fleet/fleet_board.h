@@ -103,6 +103,7 @@ class FleetBoard {
   void Publish(const std::string& robot, const std::function<void(Entry*)>& change);
   void NoteSeen(Entry* entry);
   void RemoveOldWatchers() HOMING_REQUIRES(mutex_);
+  void RemoveStrangers() HOMING_REQUIRES(mutex_);
   void RunPulse();
 
   const std::function<std::int64_t()> now_ns_;
@@ -110,6 +111,8 @@ class FleetBoard {
   ConditionVariable pulse_;
   ConditionVariable stop_;
   std::map<std::string, Entry> entries_ HOMING_GUARDED_BY(mutex_);
+  // The number of entries at which some are removed.
+  std::size_t entry_limit_ HOMING_GUARDED_BY(mutex_) = 10'000;
   std::map<std::string, Watchers> watchers_ HOMING_GUARDED_BY(mutex_);
   // Entries of watchers_, and the number at which those that no longer exist are removed.
   std::size_t watcher_count_ HOMING_GUARDED_BY(mutex_) = 0;

@@ -52,5 +52,19 @@ TEST(FleetBoardTest, WatchersOfRobotsThatDoNothingLeaveNoMemory) {
   EXPECT_EQ(stays->woken, 1);
 }
 
+TEST(FleetBoardTest, NamesThatLeaveNoJourneyTakeBoundedMemory) {
+  FleetBoard board([] { return 0; });
+  board.SetStored({{"robots/recorded", {1, 1}}});
+  const auto present = board.Enter("robots/present", v1::ACTIVITY_LOCALIZING, "");
+  for (int i = 0; i < 30'000; ++i) {
+    board.Enter(absl::StrCat("robots/z", i), v1::ACTIVITY_LOCALIZING, "");
+  }
+  const auto robots = board.List("", 100'000);
+  EXPECT_LE(robots.size(), 10'000U);
+  EXPECT_EQ(robots.front().name(), "robots/present");
+  EXPECT_EQ(robots[1].name(), "robots/recorded");
+  EXPECT_EQ(board.Newest("robots/z29999").number > 0, true);
+}
+
 }  // namespace
 }  // namespace homing::server
