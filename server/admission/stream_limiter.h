@@ -8,7 +8,6 @@
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
 #include "homing/base/mutex.h"
-#include "server/admission/limits.h"
 
 namespace homing::server {
 
@@ -30,8 +29,8 @@ class StreamLimiter {
     std::string robot_;
   };
 
-  explicit StreamLimiter(const Limits& limits)
-      : max_all_(limits.max_streams), max_robot_(limits.max_robot_streams) {}
+  // 0: no limit.
+  StreamLimiter(int max_all, int max_robot) : max_all_(max_all), max_robot_(max_robot) {}
 
   // `robot` empty: the stream counts in the total only. RESOURCE_EXHAUSTED naming the limit.
   absl::StatusOr<Slot> Enter(const std::string& robot);

@@ -16,7 +16,7 @@
 #include "server/base/read_window.h"
 #include "server/base/trace_scope.h"
 #include "server/rpc/incoming_call.h"
-#include "server/rpc/read_mark.h"
+#include "server/rpc/request_bytes.h"
 #include "server/rpc/service_core.h"
 #include "server/rpc/status_conversion.h"
 #include "server/rpc/stream_registry.h"
@@ -29,7 +29,7 @@ namespace homing::server {
 // HTTP/2 flow control slows the client down. gRPC calls the On... functions on its own threads,
 // with at most one read and one write open.
 template <typename Request, typename Response>
-class BidiStream : public grpc::ServerBidiReactor<Request, Response>,
+class BidiStream : public grpc::ServerBidiReactor<grpc::ByteBuffer, Response>,
                    public OpenStream,
                    public std::enable_shared_from_this<BidiStream<Request, Response>> {
  public:
@@ -78,27 +78,30 @@ class BidiStream : public grpc::ServerBidiReactor<Request, Response>,
 
   void OnReadDone(bool ok) override {
     watch_.Moved();
+    // No other read begins before reading_ is false.
+    const std::size_t bytes = ok ? incoming_.Length() : 0;
+    const auto request = std::make_shared<Request>();
+    absl::Status parsed;
+    if (ok) parsed = Guarded([&] { return ParseRequest(&incoming_, request.get()); });
+    incoming_.Clear();
     WorkerPool::Task task;
     bool read_after_answer = false;
     {
       const MutexLock lock(mutex_);
-      if (!ok) {
+      if (!ok || !parsed.ok()) {
         reading_ = false;
         half_closed_ = true;
-        if (IsUndecodable(*incoming_)) {
+        if (!parsed.ok()) {
           // The error takes its place in the queue: earlier requests are answered first.
           window_.Add(0);
-          PostEnd(UndecodableError(*incoming_));
+          PostEnd(parsed);
         }
         FinishIfOver();
         return;
       }
-      const std::size_t bytes = incoming_->ByteSizeLong();
       window_.Add(bytes);
-      WorkerPool* const store_pool = StorePoolOf(*incoming_);
-      task = [self = this->shared_from_this(), request = std::move(incoming_)] {
-        self->HandleGuarded(*request);
-      };
+      WorkerPool* const store_pool = StorePoolOf(*request);
+      task = [self = this->shared_from_this(), request] { self->HandleGuarded(*request); };
       read_after_answer = policy_.NoteWait(std::chrono::steady_clock::now() - read_begin_);
       if (store_pool != nullptr || !policy_.RunsInline(bytes)) {
         strand_->PostTo(store_pool != nullptr ? store_pool : &core_->pool, std::move(task));
@@ -225,9 +228,7 @@ class BidiStream : public grpc::ServerBidiReactor<Request, Response>,
     }
     reading_ = true;
     read_begin_ = std::chrono::steady_clock::now();
-    incoming_ = std::make_shared<Request>();
-    MarkUnread(incoming_.get());
-    this->StartRead(incoming_.get());
+    this->StartRead(&incoming_);
   }
 
   void WriteNext() HOMING_REQUIRES(mutex_) {
@@ -267,8 +268,9 @@ class BidiStream : public grpc::ServerBidiReactor<Request, Response>,
   const std::shared_ptr<Strand> strand_;
   std::shared_ptr<BidiStream> self_;
 
+  // Belongs to the read that runs.
+  grpc::ByteBuffer incoming_;
   Mutex mutex_;
-  std::shared_ptr<Request> incoming_ HOMING_GUARDED_BY(mutex_);
   // Lists and not deques: an empty deque takes 600 bytes, and there are many streams.
   std::list<Response> writes_ HOMING_GUARDED_BY(mutex_);
   // At most one answer, sent and cleared, whose memory is reused.

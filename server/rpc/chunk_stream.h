@@ -14,6 +14,7 @@
 #include "homing/base/status_macros.h"
 #include "server/base/trace_scope.h"
 #include "server/rpc/incoming_call.h"
+#include "server/rpc/request_bytes.h"
 #include "server/rpc/service_core.h"
 #include "server/rpc/status_conversion.h"
 #include "server/rpc/stream_watch.h"
@@ -30,10 +31,10 @@ inline void CutOffIfStale(const IncomingCall& call, StreamWatch* watch) {
 }
 
 // `Response` has a field `chunk`. The stream owns itself until gRPC calls OnDone.
-template <typename Response>
-class ChunkStream : public grpc::ServerWriteReactor<Response>,
+template <typename Request, typename Response>
+class ChunkStream : public grpc::ServerBidiReactor<grpc::ByteBuffer, Response>,
                     public OpenStream,
-                    public std::enable_shared_from_this<ChunkStream<Response>> {
+                    public std::enable_shared_from_this<ChunkStream<Request, Response>> {
  public:
   // `pool` belongs to the core and makes the file.
   ChunkStream(ServiceCore* core, grpc::CallbackServerContext* context, Rpc rpc, WorkerPool* pool)
@@ -45,10 +46,9 @@ class ChunkStream : public grpc::ServerWriteReactor<Response>,
     if (!core_->streams.Add(self_)) {
       entered = DrainingError();
     }
-    if (entered.ok() && !pool_->TryRun([self = self_] { self->Begin(); })) {
-      entered = BusyError();
-    }
-    if (!entered.ok()) {
+    if (entered.ok()) {
+      this->StartRead(&bytes_);
+    } else {
       this->Finish(call_.Finish(entered));
     }
   }
@@ -56,6 +56,15 @@ class ChunkStream : public grpc::ServerWriteReactor<Response>,
   // A started file is completed; the server's deadline for draining ends it otherwise.
   void Drain() override {}
   void Tick() override { CutOffIfStale(call_, &watch_); }
+
+  void OnReadDone(bool ok) override {
+    watch_.Moved();
+    absl::Status status = ParseOnlyRequest(ok, watch_, &bytes_, &request_);
+    bytes_.Clear();
+    const auto self = this->shared_from_this();
+    if (status.ok() && !pool_->TryRun([self] { self->Begin(); })) status = BusyError();
+    if (!status.ok()) this->Finish(call_.Finish(status));
+  }
 
   void OnWriteDone(bool ok) override {
     watch_.Moved();
@@ -75,7 +84,7 @@ class ChunkStream : public grpc::ServerWriteReactor<Response>,
 
  protected:
   // Makes the file.
-  virtual absl::Status Prepare(ServiceCore* core, IncomingCall* call) = 0;
+  virtual absl::Status Prepare(const Request& request, ServiceCore* core, IncomingCall* call) = 0;
   // The next chunk, at most kChunkBytes; empty: the end.
   virtual absl::StatusOr<std::string> NextChunk() = 0;
   // Frees what Prepare took from the core; called once, at the end.
@@ -86,7 +95,7 @@ class ChunkStream : public grpc::ServerWriteReactor<Response>,
     const TraceScope scope(call_.trace());
     const absl::Status status = Guarded([this] {
       HOMING_RETURN_IF_ERROR(CheckAwaited(&watch_));
-      return Prepare(core_, &call_);
+      return Prepare(request_, core_, &call_);
     });
     if (status.ok()) {
       WriteNext();
@@ -110,6 +119,8 @@ class ChunkStream : public grpc::ServerWriteReactor<Response>,
   IncomingCall call_;
   StreamWatch watch_;
   std::shared_ptr<ChunkStream> self_;
+  grpc::ByteBuffer bytes_;
+  Request request_;
   Response response_;
 };
 

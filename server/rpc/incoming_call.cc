@@ -4,6 +4,7 @@
 #include <grpcpp/security/auth_context.h>
 #include <spdlog/spdlog.h>
 
+#include <utility>
 #include <vector>
 
 #include "absl/strings/escaping.h"
@@ -118,6 +119,14 @@ absl::Status IncomingCall::EnterStream() {
 absl::Status IncomingCall::EnterWatch() {
   HOMING_RETURN_IF_ERROR(identified_);
   const MutexLock lock(mutex_);
+  auto watch = core_->watches.Enter(caller_.identity);
+  if (!watch.ok()) {
+    return WithReason(absl::ResourceExhaustedError(
+                          absl::StrCat(caller_.identity, " has ", ServiceCore::kMaxWatchesOfCaller,
+                                       " streams open that watch robots: these are the most")),
+                      {"WATCHES", {}});
+  }
+  watch_slot_ = *std::move(watch);
   HOMING_ASSIGN_OR_RETURN(slot_, core_->slots.Enter(""));
   return absl::OkStatus();
 }
@@ -177,6 +186,7 @@ grpc::Status IncomingCall::Finish(const absl::Status& status) {
                    absl::StatusCodeToString(status.code()), elapsed.count());
     }
     slot_.Leave();
+    watch_slot_.Leave();
   }
   return ToGrpcStatus(status);
 }

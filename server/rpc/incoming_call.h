@@ -30,11 +30,14 @@ class IncomingCall {
 
   // UNAUTHENTICATED: the caller has no valid credentials.
   const absl::Status& identified() const { return identified_; }
+  // Empty without credentials.
+  const std::string& identity() const { return caller_.identity; }
   // Checks again: UNAUTHENTICATED also if the token, certificate or role was withdrawn since.
   absl::Status CheckIdentity() const;
   // Counts the call as an open stream. RESOURCE_EXHAUSTED.
   absl::Status EnterStream();
-  // As EnterStream, for a stream that only watches: it counts in the total alone.
+  // As EnterStream, for a stream that only watches: it counts in the total and among the caller's
+  // watches, but not among the robot's streams.
   absl::Status EnterWatch();
   // Checks that the caller may do this to `resource`, as server::Authorize; for a stream also the
   // robot's limit of streams. Not for gRPC's threads: it may read the store.
@@ -74,6 +77,7 @@ class IncomingCall {
   std::string resource_ HOMING_GUARDED_BY(mutex_);
   bool is_stream_ HOMING_GUARDED_BY(mutex_) = false;
   StreamLimiter::Slot slot_ HOMING_GUARDED_BY(mutex_);
+  StreamLimiter::Slot watch_slot_ HOMING_GUARDED_BY(mutex_);
 };
 
 }  // namespace homing::server

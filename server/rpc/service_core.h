@@ -9,6 +9,7 @@
 #include <memory>
 
 #include "absl/time/clock.h"
+#include "homing/base/mutex.h"
 #include "homing/image/frame.h"
 #include "proto/wire/observation_conversion.h"
 #include "server/access/access_control.h"
@@ -55,6 +56,11 @@ inline storage::CommitQueueOptions QueueOptions(Metrics* metrics) {
 // The order of destruction is the reverse: first the commit queue, then the store. The workers have
 // stopped before.
 struct ServiceCore {
+  // Most calls whose only request is on its way, in all and of one caller: each takes some KiB.
+  static constexpr int kMaxUnread = 4096;
+  static constexpr int kMaxUnreadOfCaller = 256;
+  // Most streams of one caller that only watch: they leave most of max_streams to robots.
+  static constexpr int kMaxWatchesOfCaller = 256;
   // Most tasks of long_work and of archives that wait.
   static constexpr int kMaxLongWork = 16;
   static constexpr int kMaxArchives = 64;
@@ -75,7 +81,7 @@ struct ServiceCore {
         models(store.get()),
         quota(&catalog, core_options.limits),
         rates(core_options.limits.max_robot_rate),
-        slots(core_options.limits),
+        slots(core_options.limits.max_streams, core_options.limits.max_robot_streams),
         queue(store.get(), QueueOptions(metrics.get())),
         pool(core_options.workers) {}
   ~ServiceCore() {
@@ -98,6 +104,9 @@ struct ServiceCore {
   const std::unique_ptr<FleetIndex> index;
   // Declared before the catalog, whose writers may hold a place on it.
   FleetBoard fleet{absl::GetCurrentTimeNanos};
+  // The stored journeys were counted for the board, beginning then.
+  Mutex count_mutex;
+  TimePoint counted HOMING_GUARDED_BY(count_mutex);
   JourneyCatalog catalog;
   // Null unless other servers write to the store.
   const std::unique_ptr<JourneyFollower> follower;
@@ -105,6 +114,8 @@ struct ServiceCore {
   JourneyQuota quota;
   RateLimiter rates;
   StreamLimiter slots;
+  StreamLimiter unread{kMaxUnread, kMaxUnreadOfCaller};
+  StreamLimiter watches{0, kMaxWatchesOfCaller};
   // Bytes of files that are being imported, and exported.
   std::atomic<std::int64_t> import_bytes = 0;
   std::atomic<std::int64_t> export_bytes = 0;

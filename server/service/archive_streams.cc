@@ -7,7 +7,7 @@
 #include "homing/base/field_error.h"
 #include "homing/base/status_macros.h"
 #include "server/base/error_reason.h"
-#include "server/rpc/read_mark.h"
+#include "server/rpc/request_bytes.h"
 #include "server/rpc/status_conversion.h"
 #include "server/service/journey_archive.h"
 #include "server/service/message_conversion.h"
@@ -28,9 +28,10 @@ absl::Status TakeMemory(const ServiceCore& core, std::int64_t bytes, const char*
 
 }  // namespace
 
-absl::Status ExportStream::Prepare(ServiceCore* core, IncomingCall* call) {
-  HOMING_RETURN_IF_ERROR(call->Authorize(name_));
-  HOMING_ASSIGN_OR_RETURN(const JourneyName name, ParseJourneyName(name_, "name"));
+absl::Status ExportStream::Prepare(const v1::ExportJourneyRequest& request, ServiceCore* core,
+                                   IncomingCall* call) {
+  HOMING_RETURN_IF_ERROR(call->Authorize(request.name()));
+  HOMING_ASSIGN_OR_RETURN(const JourneyName name, ParseJourneyName(request.name(), "name"));
   HOMING_ASSIGN_OR_RETURN(auto journey, core->catalog.Open(name.ToString()));
   const LiveJourneys one = {std::move(journey)};
   const MapsLock lock(one);
@@ -47,7 +48,16 @@ absl::StatusOr<std::string> ExportStream::NextChunk() {
   return chunk;
 }
 
-void ImportStream::Tick() { CutOffIfStale(call_, &watch_); }
+void ImportStream::Tick() {
+  absl::Status status = call_.CheckIdentity();
+  if (watch_.IsIdle()) status = IdleError();
+  if (!status.ok() && reading_.exchange(false)) FinishWith(status);
+}
+
+void ImportStream::ReadNext() {
+  reading_ = true;
+  StartRead(&bytes_);
+}
 
 void ImportStream::Open() {
   self_ = shared_from_this();
@@ -94,10 +104,7 @@ absl::Status ImportStream::TakeChunk(const std::string& chunk) {
 }
 
 void ImportStream::OnReadDone(bool ok) {
-  if (!ok && IsUndecodable(request_)) {
-    FinishWith(UndecodableError(request_));
-    return;
-  }
+  if (!reading_.exchange(false)) return;
   if (!ok) {
     if (!core_->archives.TryRun([self = self_] { self->Complete(); })) {
       FinishWith(BusyError());
@@ -105,18 +112,19 @@ void ImportStream::OnReadDone(bool ok) {
     return;
   }
   watch_.Moved();
-  const absl::Status status = Guarded([this] { return Take(request_); });
+  const absl::Status status = Guarded([this] { return TakeMessage(); });
+  bytes_.Clear();
   if (status.ok()) {
-    request_.Clear();
     ReadNext();
   } else {
     FinishWith(status);
   }
 }
 
-void ImportStream::ReadNext() {
-  MarkUnread(&request_);
-  StartRead(&request_);
+absl::Status ImportStream::TakeMessage() {
+  v1::ImportJourneyRequest request;
+  HOMING_RETURN_IF_ERROR(ParseRequest(&bytes_, &request));
+  return Take(request);
 }
 
 absl::Status ImportStream::Store() {
@@ -132,7 +140,7 @@ absl::Status ImportStream::Store() {
   HOMING_RETURN_IF_ERROR(CheckAwaited(&watch_));
   HOMING_ASSIGN_OR_RETURN(const storage::JourneyRecord record,
                           core_->catalog.Import(archive.record, archive.map));
-  *response_->mutable_journey() = EncodeJourneyRecord(record);
+  *response_.mutable_journey() = EncodeJourneyRecord(record);
   return absl::OkStatus();
 }
 
@@ -143,7 +151,12 @@ void ImportStream::Complete() {
 void ImportStream::FinishWith(const absl::Status& status) {
   // Frees the file before the answer, after which the client may import the next one.
   FreeFile();
-  Finish(call_.Finish(status));
+  const grpc::Status ended = call_.Finish(status);
+  if (ended.ok()) {
+    StartWriteAndFinish(&response_, grpc::WriteOptions(), ended);
+  } else {
+    Finish(ended);
+  }
 }
 
 void ImportStream::FreeFile() {

@@ -4,6 +4,7 @@
 
 #include <grpcpp/support/server_callback.h>
 
+#include <atomic>
 #include <memory>
 #include <string>
 
@@ -17,17 +18,17 @@
 
 namespace homing::server {
 
-class ExportStream final : public ChunkStream<v1::ExportJourneyResponse> {
+class ExportStream final : public ChunkStream<v1::ExportJourneyRequest, v1::ExportJourneyResponse> {
  public:
-  ExportStream(ServiceCore* core, grpc::CallbackServerContext* context, const std::string& name)
-      : ChunkStream(core, context, Rpc::kExportJourney, &core->archives), name_(name) {}
+  ExportStream(ServiceCore* core, grpc::CallbackServerContext* context)
+      : ChunkStream(core, context, Rpc::kExportJourney, &core->archives) {}
 
  private:
-  absl::Status Prepare(ServiceCore* core, IncomingCall* call) override;
+  absl::Status Prepare(const v1::ExportJourneyRequest& request, ServiceCore* core,
+                       IncomingCall* call) override;
   absl::StatusOr<std::string> NextChunk() override;
   void Release(ServiceCore* core) override { core->export_bytes -= bytes_; }
 
-  const std::string name_;
   std::string file_;
   std::size_t written_ = 0;
   // This stream's part of core->export_bytes.
@@ -35,16 +36,13 @@ class ExportStream final : public ChunkStream<v1::ExportJourneyResponse> {
 };
 
 // The stream owns itself until gRPC calls OnDone.
-class ImportStream final : public grpc::ServerReadReactor<v1::ImportJourneyRequest>,
-                           public OpenStream,
-                           public std::enable_shared_from_this<ImportStream> {
+class ImportStream final
+    : public grpc::ServerBidiReactor<grpc::ByteBuffer, v1::ImportJourneyResponse>,
+      public OpenStream,
+      public std::enable_shared_from_this<ImportStream> {
  public:
-  ImportStream(ServiceCore* core, grpc::CallbackServerContext* context,
-               v1::ImportJourneyResponse* response)
-      : core_(core),
-        call_(core, *context, Rpc::kImportJourney),
-        watch_(core, context),
-        response_(response) {}
+  ImportStream(ServiceCore* core, grpc::CallbackServerContext* context)
+      : core_(core), call_(core, *context, Rpc::kImportJourney), watch_(core, context) {}
 
   void Open();
   void Drain() override {}
@@ -53,8 +51,9 @@ class ImportStream final : public grpc::ServerReadReactor<v1::ImportJourneyReque
   void OnDone() override;
 
  private:
-  absl::Status Take(const v1::ImportJourneyRequest& request);
   void ReadNext();
+  absl::Status TakeMessage();
+  absl::Status Take(const v1::ImportJourneyRequest& request);
   absl::Status TakeChunk(const std::string& chunk);
   absl::Status Store();
   void Complete();
@@ -64,9 +63,11 @@ class ImportStream final : public grpc::ServerReadReactor<v1::ImportJourneyReque
   ServiceCore* const core_;
   IncomingCall call_;
   StreamWatch watch_;
-  v1::ImportJourneyResponse* const response_;
   std::shared_ptr<ImportStream> self_;
-  v1::ImportJourneyRequest request_;
+  grpc::ByteBuffer bytes_;
+  v1::ImportJourneyResponse response_;
+  // Waits for the client: who sets it to false goes on with the stream.
+  std::atomic<bool> reading_ = false;
   std::string name_;
   std::string file_;
   // This stream's part of core_->import_bytes.

@@ -5,7 +5,6 @@
 #include "absl/time/clock.h"
 #include "homing/base/status_macros.h"
 #include "server/rpc/page.h"
-#include "server/rpc/unary_call.h"
 #include "server/service/message_conversion.h"
 
 namespace homing::server {
@@ -29,12 +28,18 @@ absl::Status ListModelPage(const v1::ListDeviationModelsRequest& request, ModelC
 
 }  // namespace
 
-grpc::ServerUnaryReactor* DeviationModelServiceHandler::TrainDeviationModel(
-    grpc::CallbackServerContext* context, const v1::TrainDeviationModelRequest* request,
+DeviationModelServiceHandler::DeviationModelServiceHandler(ServiceCore* core) : ApiService(core) {
+  AddUnary(Rpc::kTrainDeviationModel, &DeviationModelServiceHandler::TrainDeviationModel);
+  AddUnary(Rpc::kGetDeviationModel, &DeviationModelServiceHandler::GetDeviationModel);
+  AddUnary(Rpc::kListDeviationModels, &DeviationModelServiceHandler::ListDeviationModels);
+}
+
+void DeviationModelServiceHandler::TrainDeviationModel(
+    const UnaryCall::Ptr& call, const v1::TrainDeviationModelRequest* request,
     v1::TrainDeviationModelResponse* response) {
-  return ServeUnary(
-      core_, context, Rpc::kTrainDeviationModel, "", response,
-      [core = core_, request, response](const JourneyFilter& /*all*/) -> absl::Status {
+  ServeUnary(
+      call, "",
+      [core = core(), request, response](const JourneyFilter& /*all*/) -> absl::Status {
         HOMING_ASSIGN_OR_RETURN(
             const TrainedModel trained,
             core->models.Train(request->model_id(), DecodeTraining(request->settings()),
@@ -46,32 +51,32 @@ grpc::ServerUnaryReactor* DeviationModelServiceHandler::TrainDeviationModel(
         }
         return absl::OkStatus();
       },
-      &core_->long_work);
+      &core()->long_work);
 }
 
-grpc::ServerUnaryReactor* DeviationModelServiceHandler::GetDeviationModel(
-    grpc::CallbackServerContext* context, const v1::GetDeviationModelRequest* request,
-    v1::DeviationModel* response) {
-  return ServeUnary(
-      core_, context, Rpc::kGetDeviationModel, "", response,
-      [core = core_, request, response](const JourneyFilter& /*all*/) -> absl::Status {
+void DeviationModelServiceHandler::GetDeviationModel(const UnaryCall::Ptr& call,
+                                                     const v1::GetDeviationModelRequest* request,
+                                                     v1::DeviationModel* response) {
+  ServeUnary(
+      call, "",
+      [core = core(), request, response](const JourneyFilter& /*all*/) -> absl::Status {
         HOMING_ASSIGN_OR_RETURN(const storage::StoredModel model,
                                 core->models.Get(request->name()));
         *response = EncodeModel(model);
         return absl::OkStatus();
       },
-      &core_->store_reads);
+      &core()->store_reads);
 }
 
-grpc::ServerUnaryReactor* DeviationModelServiceHandler::ListDeviationModels(
-    grpc::CallbackServerContext* context, const v1::ListDeviationModelsRequest* request,
+void DeviationModelServiceHandler::ListDeviationModels(
+    const UnaryCall::Ptr& call, const v1::ListDeviationModelsRequest* request,
     v1::ListDeviationModelsResponse* response) {
-  return ServeUnary(
-      core_, context, Rpc::kListDeviationModels, "", response,
-      [core = core_, request, response](const JourneyFilter& /*all*/) -> absl::Status {
+  ServeUnary(
+      call, "",
+      [core = core(), request, response](const JourneyFilter& /*all*/) -> absl::Status {
         return ListModelPage(*request, &core->models, response);
       },
-      &core_->store_reads);
+      &core()->store_reads);
 }
 
 }  // namespace homing::server

@@ -2,29 +2,25 @@
 #ifndef SERVER_SERVICE_DEVIATION_MODEL_SERVICE_H_
 #define SERVER_SERVICE_DEVIATION_MODEL_SERVICE_H_
 
-#include "homing/v1/deviation_model_service.grpc.pb.h"
-#include "server/rpc/service_core.h"
+#include "homing/v1/deviation_model_service.pb.h"
+#include "server/rpc/api_service.h"
 
 namespace homing::server {
 
-// Thread-safe: gRPC calls the methods on its own threads.
-class DeviationModelServiceHandler final : public v1::DeviationModelService::CallbackService {
+class DeviationModelServiceHandler final : public ApiService {
  public:
   // `core` must outlive the service.
-  explicit DeviationModelServiceHandler(ServiceCore* core) : core_(core) {}
-
-  grpc::ServerUnaryReactor* TrainDeviationModel(grpc::CallbackServerContext* context,
-                                                const v1::TrainDeviationModelRequest* request,
-                                                v1::TrainDeviationModelResponse* response) override;
-  grpc::ServerUnaryReactor* GetDeviationModel(grpc::CallbackServerContext* context,
-                                              const v1::GetDeviationModelRequest* request,
-                                              v1::DeviationModel* response) override;
-  grpc::ServerUnaryReactor* ListDeviationModels(grpc::CallbackServerContext* context,
-                                                const v1::ListDeviationModelsRequest* request,
-                                                v1::ListDeviationModelsResponse* response) override;
+  explicit DeviationModelServiceHandler(ServiceCore* core);
 
  private:
-  ServiceCore* const core_;
+  void TrainDeviationModel(const UnaryCall::Ptr& call,
+                           const v1::TrainDeviationModelRequest* request,
+                           v1::TrainDeviationModelResponse* response);
+  void GetDeviationModel(const UnaryCall::Ptr& call, const v1::GetDeviationModelRequest* request,
+                         v1::DeviationModel* response);
+  void ListDeviationModels(const UnaryCall::Ptr& call,
+                           const v1::ListDeviationModelsRequest* request,
+                           v1::ListDeviationModelsResponse* response);
 };
 
 }  // namespace homing::server

@@ -1,13 +1,14 @@
 #include "server/service/fleet_service.h"
 
+#include <chrono>
 #include <map>
 #include <string>
 #include <vector>
 
+#include "homing/base/mutex.h"
 #include "homing/base/status_macros.h"
 #include "server/base/resource_name.h"
 #include "server/rpc/page.h"
-#include "server/rpc/unary_call.h"
 #include "server/rpc/watch_stream.h"
 
 namespace homing::server {
@@ -15,13 +16,16 @@ namespace {
 
 constexpr int kRecordsAtOnce = 1000;
 
-class FleetStream final : public WatchStream<v1::WatchFleetResponse> {
+class FleetStream final : public WatchStream<v1::WatchFleetRequest, v1::WatchFleetResponse> {
  public:
   FleetStream(ServiceCore* core, grpc::CallbackServerContext* context)
-      : WatchStream(core, context, Rpc::kWatchFleet, "") {}
+      : WatchStream(core, context, Rpc::kWatchFleet) {}
 
  private:
-  absl::Status Prepare(ServiceCore* core) override { return CountStoredJourneys(core); }
+  std::string ResourceOf(const v1::WatchFleetRequest& /*request*/) override { return ""; }
+  absl::Status Prepare(ServiceCore* core, const std::string& /*robot*/) override {
+    return CountStoredJourneys(core);
+  }
 
   bool Next(ServiceCore* core, const IncomingCall& call,
             v1::WatchFleetResponse* response) override {
@@ -37,13 +41,15 @@ class FleetStream final : public WatchStream<v1::WatchFleetResponse> {
   std::int64_t since_ = -1;
 };
 
-class RobotStream final : public WatchStream<v1::WatchRobotResponse> {
+class RobotStream final : public WatchStream<v1::WatchRobotRequest, v1::WatchRobotResponse> {
  public:
-  RobotStream(ServiceCore* core, grpc::CallbackServerContext* context, const std::string& robot)
-      : WatchStream(core, context, Rpc::kWatchRobot, robot), robot_(robot) {}
+  RobotStream(ServiceCore* core, grpc::CallbackServerContext* context)
+      : WatchStream(core, context, Rpc::kWatchRobot) {}
 
  private:
-  absl::Status Prepare(ServiceCore* /*core*/) override {
+  std::string ResourceOf(const v1::WatchRobotRequest& request) override { return request.name(); }
+  absl::Status Prepare(ServiceCore* /*core*/, const std::string& robot) override {
+    robot_ = robot;
     return ParseRobotName(robot_, "name", false).status();
   }
 
@@ -56,14 +62,25 @@ class RobotStream final : public WatchStream<v1::WatchRobotResponse> {
     return true;
   }
 
-  const std::string robot_;
+  std::string robot_;
   // -1: the first message is sent even without a change.
   std::int64_t sent_ = -1;
 };
 
 }  // namespace
 
+FleetServiceHandler::FleetServiceHandler(ServiceCore* core) : ApiService(core) {
+  AddUnary(Rpc::kListRobots, &FleetServiceHandler::ListRobots);
+  AddStream<FleetStream, v1::WatchFleetResponse>(Rpc::kWatchFleet);
+  AddStream<RobotStream, v1::WatchRobotResponse>(Rpc::kWatchRobot);
+}
+
 absl::Status CountStoredJourneys(ServiceCore* core) {
+  const TimePoint asked = std::chrono::steady_clock::now();
+  const MutexLock lock(core->count_mutex);
+  // Of many callers at the same time one counts for all.
+  if (core->counted > asked) return absl::OkStatus();
+  const TimePoint begin = std::chrono::steady_clock::now();
   std::map<std::string, FleetBoard::Stored> stored;
   std::string after;
   for (bool more = true; more;) {
@@ -78,16 +95,17 @@ absl::Status CountStoredJourneys(ServiceCore* core) {
     more = records.size() == kRecordsAtOnce;
   }
   core->fleet.SetStored(stored);
+  core->counted = begin;
   return absl::OkStatus();
 }
 
-grpc::ServerUnaryReactor* FleetServiceHandler::ListRobots(grpc::CallbackServerContext* context,
-                                                          const v1::ListRobotsRequest* request,
-                                                          v1::ListRobotsResponse* response) {
-  return ServeUnary(
-      core_, context, Rpc::kListRobots, "", response,
-      [core = core_, request, response](const JourneyFilter& /*all*/,
-                                        const IncomingCall& call) -> absl::Status {
+void FleetServiceHandler::ListRobots(const UnaryCall::Ptr& call,
+                                     const v1::ListRobotsRequest* request,
+                                     v1::ListRobotsResponse* response) {
+  ServeUnary(
+      call, "",
+      [core = core(), request, response](const JourneyFilter& /*all*/,
+                                         const IncomingCall& incoming) -> absl::Status {
         HOMING_ASSIGN_OR_RETURN(const int size, DecodePageSize(request->page_size()));
         HOMING_ASSIGN_OR_RETURN(std::string after,
                                 DecodePageToken("robots", request->page_token()));
@@ -96,7 +114,7 @@ grpc::ServerUnaryReactor* FleetServiceHandler::ListRobots(grpc::CallbackServerCo
           const std::vector<v1::Robot> robots = core->fleet.List(after, kRecordsAtOnce);
           more = robots.size() == kRecordsAtOnce;
           for (const v1::Robot& robot : robots) {
-            if (!call.SeesRobot(robot.name())) continue;
+            if (!incoming.SeesRobot(robot.name())) continue;
             if (response->robots_size() == size) {
               response->set_next_page_token(
                   EncodePageToken("robots", response->robots(size - 1).name()));
@@ -108,21 +126,7 @@ grpc::ServerUnaryReactor* FleetServiceHandler::ListRobots(grpc::CallbackServerCo
         }
         return absl::OkStatus();
       },
-      &core_->store_reads);
-}
-
-grpc::ServerWriteReactor<v1::WatchFleetResponse>* FleetServiceHandler::WatchFleet(
-    grpc::CallbackServerContext* context, const v1::WatchFleetRequest* /*request*/) {
-  const auto stream = std::make_shared<FleetStream>(core_, context);
-  stream->Open();
-  return stream.get();
-}
-
-grpc::ServerWriteReactor<v1::WatchRobotResponse>* FleetServiceHandler::WatchRobot(
-    grpc::CallbackServerContext* context, const v1::WatchRobotRequest* request) {
-  const auto stream = std::make_shared<RobotStream>(core_, context, request->name());
-  stream->Open();
-  return stream.get();
+      &core()->store_reads);
 }
 
 }  // namespace homing::server

@@ -2,27 +2,19 @@
 #ifndef SERVER_SERVICE_FLEET_SERVICE_H_
 #define SERVER_SERVICE_FLEET_SERVICE_H_
 
-#include "homing/v1/fleet_service.grpc.pb.h"
-#include "server/rpc/service_core.h"
+#include "homing/v1/fleet_service.pb.h"
+#include "server/rpc/api_service.h"
 
 namespace homing::server {
 
-// Thread-safe: gRPC calls the methods on its own threads.
-class FleetServiceHandler final : public v1::FleetService::CallbackService {
+class FleetServiceHandler final : public ApiService {
  public:
   // `core` must outlive the service.
-  explicit FleetServiceHandler(ServiceCore* core) : core_(core) {}
-
-  grpc::ServerUnaryReactor* ListRobots(grpc::CallbackServerContext* context,
-                                       const v1::ListRobotsRequest* request,
-                                       v1::ListRobotsResponse* response) override;
-  grpc::ServerWriteReactor<v1::WatchFleetResponse>* WatchFleet(
-      grpc::CallbackServerContext* context, const v1::WatchFleetRequest* request) override;
-  grpc::ServerWriteReactor<v1::WatchRobotResponse>* WatchRobot(
-      grpc::CallbackServerContext* context, const v1::WatchRobotRequest* request) override;
+  explicit FleetServiceHandler(ServiceCore* core);
 
  private:
-  ServiceCore* const core_;
+  void ListRobots(const UnaryCall::Ptr& call, const v1::ListRobotsRequest* request,
+                  v1::ListRobotsResponse* response);
 };
 
 // Counts the stored journeys of each robot again, for the board.

@@ -3,7 +3,6 @@
 #include <memory>
 
 #include "homing/base/status_macros.h"
-#include "server/rpc/unary_call.h"
 #include "server/service/localize_stream.h"
 #include "server/service/message_conversion.h"
 
@@ -24,9 +23,9 @@ bool IsLong(const v1::MatchLandmarksRequest& request) {
 // One query: its journeys are loaded in one pool, and compared in another.
 class Search {
  public:
-  Search(ServiceCore* core, const grpc::CallbackServerContext* context)
-      : core_(core), cancellation_(context), limits_(core->options.decode) {
-    limits_.cancellation = &cancellation_;
+  Search(ServiceCore* core, const Cancellation* cancellation)
+      : core_(core), limits_(core->options.decode) {
+    limits_.cancellation = cancellation;
   }
 
   absl::Status Load(const v1::MatchLandmarksRequest& request, const JourneyFilter& filter) {
@@ -45,7 +44,6 @@ class Search {
 
  private:
   ServiceCore* const core_;
-  const UnaryCancellation cancellation_;
   DecodeLimits limits_;
   LandmarkQuery query_;
   QueryJourneys journeys_;
@@ -53,23 +51,21 @@ class Search {
 
 }  // namespace
 
-grpc::ServerUnaryReactor* HomingServiceHandler::MatchLandmarks(
-    grpc::CallbackServerContext* context, const v1::MatchLandmarksRequest* request,
-    v1::MatchLandmarksResponse* response) {
-  const auto search = std::make_shared<Search>(core_, context);
-  return ServeUnary(
-      core_, context, Rpc::kMatchLandmarks, request->journey(), response,
-      [search, request](const JourneyFilter& filter) { return search->Load(*request, filter); },
-      &core_->store_reads,
-      {[search, response] { return search->Match(response); },
-       IsLong(*request) ? &core_->long_work : &core_->pool});
+HomingServiceHandler::HomingServiceHandler(ServiceCore* core) : ApiService(core) {
+  AddUnary(Rpc::kMatchLandmarks, &HomingServiceHandler::MatchLandmarks);
+  AddStream<LocalizeStream, v1::LocalizeResponse>(Rpc::kLocalize);
 }
 
-grpc::ServerBidiReactor<v1::LocalizeRequest, v1::LocalizeResponse>* HomingServiceHandler::Localize(
-    grpc::CallbackServerContext* context) {
-  const auto stream = std::make_shared<LocalizeStream>(core_, context);
-  stream->Open();
-  return stream.get();
+void HomingServiceHandler::MatchLandmarks(const UnaryCall::Ptr& call,
+                                          const v1::MatchLandmarksRequest* request,
+                                          v1::MatchLandmarksResponse* response) {
+  const auto search = std::make_shared<Search>(core(), call->cancellation());
+  ServeUnary(
+      call, request->journey(),
+      [search, request](const JourneyFilter& filter) { return search->Load(*request, filter); },
+      &core()->store_reads,
+      {[search, response] { return search->Match(response); },
+       IsLong(*request) ? &core()->long_work : &core()->pool});
 }
 
 }  // namespace homing::server

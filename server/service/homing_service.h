@@ -2,25 +2,19 @@
 #ifndef SERVER_SERVICE_HOMING_SERVICE_H_
 #define SERVER_SERVICE_HOMING_SERVICE_H_
 
-#include "homing/v1/homing_service.grpc.pb.h"
-#include "server/rpc/service_core.h"
+#include "homing/v1/homing_service.pb.h"
+#include "server/rpc/api_service.h"
 
 namespace homing::server {
 
-// Thread-safe: gRPC calls the methods on its own threads.
-class HomingServiceHandler final : public v1::HomingService::CallbackService {
+class HomingServiceHandler final : public ApiService {
  public:
   // `core` must outlive the service.
-  explicit HomingServiceHandler(ServiceCore* core) : core_(core) {}
-
-  grpc::ServerUnaryReactor* MatchLandmarks(grpc::CallbackServerContext* context,
-                                           const v1::MatchLandmarksRequest* request,
-                                           v1::MatchLandmarksResponse* response) override;
-  grpc::ServerBidiReactor<v1::LocalizeRequest, v1::LocalizeResponse>* Localize(
-      grpc::CallbackServerContext* context) override;
+  explicit HomingServiceHandler(ServiceCore* core);
 
  private:
-  ServiceCore* const core_;
+  void MatchLandmarks(const UnaryCall::Ptr& call, const v1::MatchLandmarksRequest* request,
+                      v1::MatchLandmarksResponse* response);
 };
 
 }  // namespace homing::server

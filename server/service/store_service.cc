@@ -10,13 +10,14 @@
 namespace homing::server {
 namespace {
 
-class BackUpStream final : public ChunkStream<v1::BackUpStoreResponse> {
+class BackUpStream final : public ChunkStream<v1::BackUpStoreRequest, v1::BackUpStoreResponse> {
  public:
   BackUpStream(ServiceCore* core, grpc::CallbackServerContext* context)
       : ChunkStream(core, context, Rpc::kBackUpStore, &core->store_reads) {}
 
  private:
-  absl::Status Prepare(ServiceCore* core, IncomingCall* call) override {
+  absl::Status Prepare(const v1::BackUpStoreRequest& /*request*/, ServiceCore* core,
+                       IncomingCall* call) override {
     HOMING_RETURN_IF_ERROR(call->Authorize(""));
     HOMING_ASSIGN_OR_RETURN(copy_, core->store->BackUp());
     return absl::OkStatus();
@@ -37,11 +38,8 @@ class BackUpStream final : public ChunkStream<v1::BackUpStoreResponse> {
 
 }  // namespace
 
-grpc::ServerWriteReactor<v1::BackUpStoreResponse>* StoreServiceHandler::BackUpStore(
-    grpc::CallbackServerContext* context, const v1::BackUpStoreRequest* /*request*/) {
-  const auto stream = std::make_shared<BackUpStream>(core_, context);
-  stream->Open();
-  return stream.get();
+StoreServiceHandler::StoreServiceHandler(ServiceCore* core) : ApiService(core) {
+  AddStream<BackUpStream, v1::BackUpStoreResponse>(Rpc::kBackUpStore);
 }
 
 }  // namespace homing::server

@@ -2,22 +2,15 @@
 #ifndef SERVER_SERVICE_STORE_SERVICE_H_
 #define SERVER_SERVICE_STORE_SERVICE_H_
 
-#include "homing/v1/store_service.grpc.pb.h"
-#include "server/rpc/service_core.h"
+#include "homing/v1/store_service.pb.h"
+#include "server/rpc/api_service.h"
 
 namespace homing::server {
 
-// Thread-safe: gRPC calls the methods on its own threads.
-class StoreServiceHandler final : public v1::StoreService::CallbackService {
+class StoreServiceHandler final : public ApiService {
  public:
   // `core` must outlive the service.
-  explicit StoreServiceHandler(ServiceCore* core) : core_(core) {}
-
-  grpc::ServerWriteReactor<v1::BackUpStoreResponse>* BackUpStore(
-      grpc::CallbackServerContext* context, const v1::BackUpStoreRequest* request) override;
-
- private:
-  ServiceCore* const core_;
+  explicit StoreServiceHandler(ServiceCore* core);
 };
 
 }  // namespace homing::server

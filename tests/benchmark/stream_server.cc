@@ -6,8 +6,9 @@
 #include <thread>
 
 #include "absl/strings/str_cat.h"
-#include "homing/v1/journey_service.grpc.pb.h"
+#include "homing/v1/journey_service.pb.h"
 #include "server/homing_server.h"
+#include "server/rpc/api_service.h"
 #include "server/rpc/bidi_stream.h"
 #include "server/tls_credentials.h"
 #include "tests/support/temporary_folder.h"
@@ -53,25 +54,18 @@ class EchoStream final
   }
 };
 
-class EchoService final : public v1::JourneyService::CallbackService {
+class EchoService final : public server::ApiService {
  public:
-  explicit EchoService(server::ServiceCore* core) : core_(core) {}
-  grpc::ServerUnaryReactor* CreateJourney(grpc::CallbackServerContext* context,
-                                          const v1::CreateJourneyRequest* /*request*/,
-                                          v1::Journey* /*response*/) override {
-    grpc::ServerUnaryReactor* const reactor = context->DefaultReactor();
-    reactor->Finish(grpc::Status::OK);
-    return reactor;
-  }
-  grpc::ServerBidiReactor<v1::RecordJourneyRequest, v1::RecordJourneyResponse>* RecordJourney(
-      grpc::CallbackServerContext* context) override {
-    const auto stream = std::make_shared<EchoStream>(core_, context);
-    stream->Open();
-    return stream.get();
+  explicit EchoService(server::ServiceCore* core) : ApiService(core) {
+    AddUnary(server::Rpc::kCreateJourney, &EchoService::CreateJourney);
+    AddStream<EchoStream, v1::RecordJourneyResponse>(server::Rpc::kRecordJourney);
   }
 
  private:
-  server::ServiceCore* const core_;
+  void CreateJourney(const server::UnaryCall::Ptr& call,
+                     const v1::CreateJourneyRequest* /*request*/, v1::Journey* /*response*/) {
+    call->End(absl::OkStatus());
+  }
 };
 
 server::CoreOptions EchoOptions() {

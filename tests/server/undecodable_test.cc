@@ -84,6 +84,22 @@ TEST_F(UndecodableTest, OtherKindsOfNonsenseAreErrorsToo) {
   }
 }
 
+TEST_F(UndecodableTest, MessagesThatWouldTakeManyTimesTheirBytesAreNotParsed) {
+  std::string unknown, empty;
+  for (int i = 0; i < 1'000'000; ++i) {
+    unknown += std::string("\x7a\x00", 2);
+    empty += std::string("\x1a\x00", 2);
+  }
+  const auto refused = GrpcStatusIs(grpc::StatusCode::INVALID_ARGUMENT, HasSubstr("more than"));
+  EXPECT_THAT(Send("/homing.v1.HomingService/Localize", {unknown}).status, refused);
+  EXPECT_THAT(Send("/homing.v1.HomingService/MatchLandmarks", {empty}).status, refused);
+}
+
+TEST_F(UndecodableTest, ACallWithoutItsRequestIsAnError) {
+  EXPECT_THAT(Send("/homing.v1.JourneyService/GetJourney", {}).status,
+              GrpcStatusIs(grpc::StatusCode::INVALID_ARGUMENT, HasSubstr("no request")));
+}
+
 TEST_F(UndecodableTest, AnEmptyStreamIsNoError) {
   EXPECT_THAT(Send(kRecord, {}).status, IsGrpcOk());
 }

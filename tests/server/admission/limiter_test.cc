@@ -59,15 +59,8 @@ TEST(RateLimiterTest, ZeroIsNoLimit) {
   }
 }
 
-Limits StreamLimits(int all, int robot) {
-  Limits limits;
-  limits.max_streams = all;
-  limits.max_robot_streams = robot;
-  return limits;
-}
-
 TEST(StreamLimiterTest, APlaceIsGivenBackOnce) {
-  StreamLimiter limiter(StreamLimits(2, 1));
+  StreamLimiter limiter(2, 1);
   auto first = limiter.Enter("robots/a");
   ASSERT_THAT(first, IsOk());
   const auto second = limiter.Enter("robots/a");
@@ -84,7 +77,7 @@ TEST(StreamLimiterTest, APlaceIsGivenBackOnce) {
 }
 
 TEST(StreamLimiterTest, TheLimitOfAllHoldsWhoeverCalls) {
-  StreamLimiter limiter(StreamLimits(2, 0));
+  StreamLimiter limiter(2, 0);
   const auto a = limiter.Enter("");
   const auto b = limiter.Enter("robots/a");
   ASSERT_THAT(a, IsOk());
