@@ -17,9 +17,6 @@ constexpr std::chrono::milliseconds kPulse{500};
 
 constexpr std::size_t kLeastWatcherLimit = 64;
 
-// Robots on the board before those that left no journey are removed.
-constexpr std::size_t kLeastEntryLimit = 10'000;
-
 // The watchers that still exist; the others are removed.
 std::vector<std::shared_ptr<FleetWatcher>> Alive(
     std::vector<std::weak_ptr<FleetWatcher>>* watchers) {

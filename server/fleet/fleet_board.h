@@ -95,6 +95,8 @@ class FleetBoard {
     Update update;
   };
   using Watchers = std::vector<std::weak_ptr<FleetWatcher>>;
+  // Robots on the board before some of those that left no journey are removed.
+  static constexpr std::size_t kLeastEntryLimit = 10'000;
 
   Entry& EntryOf(const std::string& robot) HOMING_REQUIRES(mutex_);
   void MarkChanged(Entry* entry) HOMING_REQUIRES(mutex_);
@@ -112,7 +114,7 @@ class FleetBoard {
   ConditionVariable stop_;
   std::map<std::string, Entry> entries_ HOMING_GUARDED_BY(mutex_);
   // The number of entries at which some are removed.
-  std::size_t entry_limit_ HOMING_GUARDED_BY(mutex_) = 10'000;
+  std::size_t entry_limit_ HOMING_GUARDED_BY(mutex_) = kLeastEntryLimit;
   std::map<std::string, Watchers> watchers_ HOMING_GUARDED_BY(mutex_);
   // Entries of watchers_, and the number at which those that no longer exist are removed.
   std::size_t watcher_count_ HOMING_GUARDED_BY(mutex_) = 0;
