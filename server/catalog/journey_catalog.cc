@@ -1,7 +1,5 @@
 #include "server/catalog/journey_catalog.h"
 
-#include <spdlog/spdlog.h>
-
 #include <functional>
 #include <utility>
 
@@ -126,10 +124,7 @@ absl::Status JourneyCatalog::Delete(const std::string& name) {
     journey->EvictWriter(JourneyDeleted(name));
   }
   HOMING_RETURN_IF_ERROR(store_->DeleteJourney(name));
-  {
-    const MutexLock damaged_lock(damaged_mutex_);
-    damaged_.erase(name);
-  }
+  damaged_.Remove(name);
   if (index_ != nullptr) {
     index_->Deleted(name);
   }
@@ -229,17 +224,8 @@ absl::StatusOr<LiveJourneys> JourneyCatalog::Resolve(const JourneyName& pattern,
 bool JourneyCatalog::IsSkipped(const std::string& name, const absl::Status& status) {
   // The journey was deleted after it was listed.
   if (absl::IsNotFound(status)) return true;
-  if (!absl::IsDataLoss(status)) return false;
-  const MutexLock lock(damaged_mutex_);
-  if (damaged_.insert(name).second) {
-    spdlog::error("wildcards skip \"{}\": {}", name, std::string(status.message()));
-  }
-  return true;
-}
-
-int JourneyCatalog::damaged() const {
-  const MutexLock lock(damaged_mutex_);
-  return static_cast<int>(damaged_.size());
+  if (absl::IsDataLoss(status)) damaged_.Add(name, status);
+  return absl::IsDataLoss(status);
 }
 
 absl::Status JourneyCatalog::LoadMap(const JourneyName& pattern, LiveJourney* journey) {

@@ -6,7 +6,6 @@
 #include <functional>
 #include <map>
 #include <memory>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -16,6 +15,7 @@
 #include "homing/base/mutex.h"
 #include "server/base/memory_budget.h"
 #include "server/base/resource_name.h"
+#include "server/catalog/damaged_journeys.h"
 #include "server/catalog/journey_cache.h"
 #include "server/catalog/live_journey.h"
 #include "storage/journey_store.h"
@@ -103,7 +103,7 @@ class JourneyCatalog {
                                     TimePoint now, WriterLease::Evict evict);
 
   // Journeys that were found damaged, and are skipped by wildcards.
-  int damaged() const;
+  int damaged() const { return damaged_.size(); }
 
   // Other servers write to the store: a JourneyFollower must run.
   bool shared() const { return store_->shared(); }
@@ -122,8 +122,7 @@ class JourneyCatalog {
   absl::Status AddIfCovered(const JourneyName& pattern, const std::string& name,
                             LiveJourneys* journeys);
   absl::Status LoadMap(const JourneyName& pattern, LiveJourney* journey);
-  // A wildcard continues without the journey, whose map could not be read. Logs a damaged one,
-  // once.
+  // A wildcard continues without the journey, whose map could not be read.
   bool IsSkipped(const std::string& name, const absl::Status& status);
   // NOT_FOUND: a journey of that name is neither in memory nor on disk.
   absl::StatusOr<std::shared_ptr<LiveJourney>> FindOrOpen(const std::string& name);
@@ -134,8 +133,7 @@ class JourneyCatalog {
   std::array<Mutex, 32> stripes_;
   JourneyCache cache_;
   MemoryBudget beliefs_;
-  mutable Mutex damaged_mutex_;
-  std::set<std::string> damaged_ HOMING_GUARDED_BY(damaged_mutex_);
+  DamagedJourneys damaged_;
 };
 
 }  // namespace homing::server
