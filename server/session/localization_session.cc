@@ -9,6 +9,7 @@
 #include "homing/base/status_macros.h"
 #include "homing/localization/speed_evidence.h"
 #include "server/base/error_reason.h"
+#include "server/session/image_memory.h"
 #include "server/session/sequence_check.h"
 
 namespace homing::server {
@@ -35,6 +36,20 @@ absl::Status MeasureView(const CameraView& view, const DecodeLimits& limits, int
     *height = image.rows;
   }
   return absl::OkStatus();
+}
+
+// The memory of an observation's frames. A camera that sent none yet may send others as large.
+std::int64_t BytesOf(const Observation& observation, const QueryRobot& robot,
+                     const FlowOptions& options) {
+  std::array<int, 2> widths{};
+  std::array<int, 2> heights{};
+  for (std::size_t side = 0; side < 2; ++side) {
+    const std::size_t from = robot.widths[side] > 0 ? side : 1 - side;
+    if (!std::holds_alternative<Frame>(observation.views[from])) continue;
+    widths[side] = robot.widths[from];
+    heights[side] = robot.heights[from];
+  }
+  return ImageBytes(widths, heights, options);
 }
 
 QueryRobot RobotOf(const LocalizationQuery& query) {
@@ -74,9 +89,10 @@ absl::StatusOr<std::unique_ptr<LocalizationSession>> LocalizationSession::Open(
 absl::Status LocalizationSession::TakeMemory() {
   std::int64_t steps = 0;
   for (const auto& journey : journeys_) steps += journey->record().step_count;
-  if (memory_.TrySet(steps * kBytesAStep)) return absl::OkStatus();
+  const std::int64_t bytes = steps * kBytesAStep + image_bytes_;
+  if (memory_.TrySet(bytes)) return absl::OkStatus();
   return WithReason(absl::ResourceExhaustedError(absl::StrCat(
-                        "localising on ", steps, " steps needs ", steps * kBytesAStep,
+                        "localising on ", steps, " steps with these images needs ", bytes,
                         " bytes; together with the other streams this is more than memory-quota, ",
                         catalog_->beliefs()->most(), " bytes")),
                     {"LOCALIZE_MEMORY", {}});
@@ -86,7 +102,7 @@ void LocalizationSession::GiveMemoryBack() {
   std::size_t held = 0;
   for (const StepMass& of_journey : localizer_->masses()) held += of_journey.mass.size();
   // None before the first step: the belief is not made yet.
-  if (held > 0) memory_.Set(static_cast<std::int64_t>(held) * kBytesAStep);
+  if (held > 0) memory_.Set(static_cast<std::int64_t>(held) * kBytesAStep + image_bytes_);
 }
 
 absl::Status LocalizationSession::CheckSequence(std::int64_t sequence) {
@@ -109,6 +125,7 @@ absl::Status LocalizationSession::Start(const Observation& observation) {
   selection.options.position = query_.position;
   HOMING_RETURN_IF_ERROR(Validate(selection.options));
   journeys_ = std::move(selection.journeys);
+  image_bytes_ = BytesOf(observation, robot, selection.options.flow);
   HOMING_RETURN_IF_ERROR(TakeMemory());
   HOMING_RETURN_IF_ERROR(catalog_->LoadMaps(pattern_, &journeys_, limits_.cancellation));
   options_ = selection.options;

@@ -24,7 +24,8 @@ struct LocalizationPrior {
 };
 
 struct LocalizationQuery {
-  // Name or pattern; `filter` selects journeys of a pattern.
+  // Name or pattern; `filter` selects the journeys that the caller may use. It is asked again each
+  // second.
   std::string journey;
   JourneyFilter filter;
   Travel travel = Travel::kReturn;
@@ -75,8 +76,8 @@ class LocalizationSession {
         limits_(limits),
         prior_(query.prior),
         memory_(catalog->beliefs()) {}
-  // Takes the memory of a belief over all steps of the journeys, which an unsure robot needs.
-  // RESOURCE_EXHAUSTED.
+  // Takes the memory of a belief over all steps of the journeys, which an unsure robot needs, and
+  // of its frames. RESOURCE_EXHAUSTED.
   absl::Status TakeMemory();
   // Gives back what the belief does not hold any more.
   void GiveMemoryBack();
@@ -102,6 +103,7 @@ class LocalizationSession {
   Position position_;
   std::optional<std::int64_t> expected_;
   bool started_ = false;
+  std::int64_t image_bytes_ = 0;
   MemoryBudget::Share memory_;
 };
 

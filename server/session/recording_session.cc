@@ -10,6 +10,7 @@
 #include "homing/base/range_check.h"
 #include "homing/base/status_macros.h"
 #include "server/base/error_reason.h"
+#include "server/session/image_memory.h"
 #include "server/session/sequence_check.h"
 
 namespace homing::server {
@@ -97,6 +98,7 @@ absl::Status RecordingSession::Process(const Observation& observation, TimePoint
   if (!step.ok()) {
     return Within("observation", step.status());
   }
+  HOMING_RETURN_IF_ERROR(TakeImageMemory());
   // Of the durable observations, tracking needs the reference only.
   expected_ = std::max(sequence + 1, next_);
   if (sequence < next_) {
@@ -134,6 +136,19 @@ absl::Status RecordingSession::CheckKind(const Observation& observation) {
   }
   kind_ = *kind;
   return absl::OkStatus();
+}
+
+absl::Status RecordingSession::TakeImageMemory() {
+  if (kind_ != InputKind::kFrames) return absl::OkStatus();
+  const auto& [left, right] = recorder_->settings().cameras;
+  const std::int64_t bytes = ImageBytes({left.width, right.width}, {left.height, right.height},
+                                        recorder_->settings().flow);
+  if (image_memory_.TrySet(bytes)) return absl::OkStatus();
+  return WithReason(absl::ResourceExhaustedError(absl::StrCat(
+                        "recording such images needs ", bytes,
+                        " bytes; together with the other streams this is more than memory-quota, ",
+                        context_.catalog->beliefs()->most(), " bytes")),
+                    {"IMAGE_MEMORY", {}});
 }
 
 absl::Status RecordingSession::Commit(storage::JourneyAppend append, RecordingAnswer answer,

@@ -80,11 +80,15 @@ class RecordingSession : public std::enable_shared_from_this<RecordingSession> {
   };
 
   RecordingSession(const RecordingContext& context, RecordingListener listener)
-      : context_(context), listener_(std::move(listener)) {}
+      : context_(context),
+        image_memory_(context.catalog->beliefs()),
+        listener_(std::move(listener)) {}
   absl::Status Start(WriterClaim claim);
   absl::Status Process(const Observation& observation, TimePoint now, std::int64_t slot);
   absl::Status CheckExpected(const Observation& observation) const;
   absl::Status CheckKind(const Observation& observation);
+  // Takes the memory in which the recorder tracks frames. RESOURCE_EXHAUSTED.
+  absl::Status TakeImageMemory();
   absl::Status Commit(storage::JourneyAppend append, RecordingAnswer answer, std::int64_t slot);
   std::int64_t OpenSlot();
   void Complete(std::int64_t slot, const absl::Status& status, RecordingAnswer answer);
@@ -96,6 +100,7 @@ class RecordingSession : public std::enable_shared_from_this<RecordingSession> {
   WriterClaim claim_;
   std::optional<JourneyRecorder> recorder_;
   InputKind kind_ = InputKind::kUnknown;
+  MemoryBudget::Share image_memory_;
   // Next sequence for the recorder, and next sequence to commit. After a resumption `expected_` is
   // the reference's, until the client has sent the reference again.
   std::int64_t expected_ = 0;
