@@ -1,8 +1,11 @@
 // A store that does not answer, on a server with one worker: the worker stays free for robots whose
 // maps are in memory.
+#include <atomic>
 #include <chrono>
 #include <functional>
 #include <future>
+#include <thread>
+#include <vector>
 
 #include "homing/base/mutex.h"
 #include "homing/v1/fleet_service.grpc.pb.h"
@@ -42,6 +45,8 @@ class HeldStore final : public storage::ForwardingStore {
     while (calls_ == 0) changed_.Wait(mutex_);
   }
 
+  std::atomic<int> lists = 0;
+
   absl::StatusOr<JourneyMap> LoadMap(const std::string& name) override {
     Await(Read::kMap);
     return store_->LoadMap(name);
@@ -49,6 +54,7 @@ class HeldStore final : public storage::ForwardingStore {
   absl::StatusOr<std::vector<storage::JourneyRecord>> ListJourneys(const std::string& prefix,
                                                                    const std::string& after,
                                                                    int limit) override {
+    ++lists;
     Await(Read::kList);
     return store_->ListJourneys(prefix, after, limit);
   }
@@ -192,6 +198,26 @@ TEST_F(HeldStoreTest, AnOperatorListsAndWatchesTheFleet) {
     context.TryCancel();
     stream->Finish();
   });
+}
+
+TEST_F(HeldStoreTest, CallersAtTheSameTimeShareACountOfTheJourneys) {
+  held_->Hold(HeldStore::Read::kList);
+  const int before = held_->lists;
+  std::vector<std::future<void>> calls;
+  for (int i = 0; i < ServiceCore::kStoreReaders; ++i) {
+    calls.push_back(std::async(std::launch::async, [this] {
+      grpc::ClientContext context;
+      v1::ListRobotsResponse response;
+      EXPECT_THAT(fleet_->ListRobots(&context, {}, &response), IsGrpcOk());
+      EXPECT_EQ(response.robots_size(), 1);
+    }));
+  }
+  held_->AwaitCall();
+  // The others wait for the lock by then.
+  std::this_thread::sleep_for(std::chrono::milliseconds(500));
+  held_->Release();
+  for (auto& call : calls) call.get();
+  EXPECT_LE(held_->lists - before, 2);
 }
 
 }  // namespace

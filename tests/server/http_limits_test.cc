@@ -14,7 +14,6 @@
 
 #include "server/access/certificate_folder.h"
 #include "server/access/token_book.h"
-#include "server/http/login_limit.h"
 #include "tests/server/server_fixture.h"
 #include "tests/support/status_matchers.h"
 
@@ -274,36 +273,6 @@ TEST_F(HttpLimitsTest, WhatFollowsARequestThatIsNotUnderstoodIsNoRequest) {
     }
     EXPECT_THAT(answers, Not(HasSubstr("ok\n"))) << first.substr(0, 40);
   }
-}
-
-TEST_F(HttpLimitsTest, OneTokenDoesNotTakeAllSessions) {
-  StartGuarded();
-  EXPECT_THAT(AddToken(options_.tokens, "operators/o", HashToken("secret-o")), IsOk());
-  StartServer();
-  auto browser = Browser();
-  std::string oldest, newest;
-  for (int i = 0; i < 1100; ++i) {
-    const auto login = browser.Post("/api/v1/login", R"({"token":"secret-r"})", "");
-    ASSERT_EQ(login->status, 200) << i;
-    newest = login->get_header_value("Set-Cookie");
-    newest = newest.substr(0, newest.find(';'));
-    if (oldest.empty()) oldest = newest;
-  }
-  EXPECT_EQ(browser.Post("/api/v1/login", R"({"token":"secret-o"})", "")->status, 200);
-  EXPECT_EQ(browser.Get("/api/v1/session", {{"Cookie", oldest}})->status, 401);
-  EXPECT_EQ(browser.Get("/api/v1/session", {{"Cookie", newest}})->status, 200);
-}
-
-TEST_F(HttpLimitsTest, GuessesOfAnAddressDoNotLockOutItsOthers) {
-  StartGuarded();
-  auto browser = Browser();
-  for (int i = 0; i < LoginLimit::kMostFailures; ++i) {
-    EXPECT_EQ(browser.Post("/api/v1/login", R"({"token":"guess"})", "")->status, 401);
-  }
-  EXPECT_EQ(browser.Post("/api/v1/login", R"({"token":"guess"})", "")->status, 429);
-  EXPECT_EQ(browser.Post("/api/v1/login", R"({"token":"secret-r"})", "")->status, 200);
-  EXPECT_EQ(browser.Get("/login?once=guess")->get_header_value("Location"), "/#/login?link=used");
-  EXPECT_EQ(browser.Get("/healthz")->status, 200);
 }
 
 }  // namespace

@@ -262,7 +262,7 @@ TEST_F(LimitsTest, MetricsAreServedOverHttpAndNothingElseIs) {
   }
   for (const std::string limit :
        {"PIXELS", "VECTORS", "STREAMS", "ROBOT_STREAMS", "RATE", "ROBOT_JOURNEYS", "ROBOT_BYTES",
-        "IMPORT_MEMORY", "EXPORT_MEMORY", "LOCALIZE_MEMORY", "MAP_CACHE", "IDLE"}) {
+        "IMPORT_MEMORY", "EXPORT_MEMORY", "LOCALIZE_MEMORY", "IMAGE_MEMORY", "MAP_CACHE", "IDLE"}) {
     EXPECT_THAT(answer, HasSubstr("reason=\"" + limit + "\"} 0"));
   }
   EXPECT_THAT(answer, Not(HasSubstr("robots/")));

@@ -1,6 +1,11 @@
 #include "server/http/login_limit.h"
 
 #include <gtest/gtest.h>
+#include <httplib.h>
+
+#include "server/access/token_book.h"
+#include "tests/server/server_fixture.h"
+#include "tests/support/status_matchers.h"
 
 namespace homing::server {
 namespace {
@@ -17,6 +22,46 @@ TEST(LoginLimitTest, AnAddressMayTryAgainAMinuteLater) {
   for (int i = 0; i < 20'000; ++i) limit.MayFail(std::to_string(i), now);
   EXPECT_FALSE(limit.MayFail("one more", now));
   EXPECT_TRUE(limit.MayFail("one more", now + LoginLimit::kPeriod));
+}
+
+class LoginTest : public ServerTest {
+ protected:
+  LoginTest() { options_.http = "127.0.0.1:0"; }
+  httplib::Client Browser() { return httplib::Client("http://" + server_->metrics_address()); }
+  void StartGuarded() {
+    options_.tokens = folder_.File("tokens.toml");
+    EXPECT_THAT(AddToken(options_.tokens, "robots/r", HashToken("secret-r")), IsOk());
+    EXPECT_THAT(AddToken(options_.tokens, "operators/o", HashToken("secret-o")), IsOk());
+    StartServer();
+  }
+};
+
+TEST_F(LoginTest, OneTokenDoesNotTakeAllSessions) {
+  StartGuarded();
+  auto browser = Browser();
+  std::string oldest, newest;
+  for (int i = 0; i < 1100; ++i) {
+    const auto login = browser.Post("/api/v1/login", R"({"token":"secret-r"})", "");
+    ASSERT_EQ(login->status, 200) << i;
+    newest = login->get_header_value("Set-Cookie");
+    newest = newest.substr(0, newest.find(';'));
+    if (oldest.empty()) oldest = newest;
+  }
+  EXPECT_EQ(browser.Post("/api/v1/login", R"({"token":"secret-o"})", "")->status, 200);
+  EXPECT_EQ(browser.Get("/api/v1/session", {{"Cookie", oldest}})->status, 401);
+  EXPECT_EQ(browser.Get("/api/v1/session", {{"Cookie", newest}})->status, 200);
+}
+
+TEST_F(LoginTest, GuessesOfAnAddressDoNotLockOutItsOthers) {
+  StartGuarded();
+  auto browser = Browser();
+  for (int i = 0; i < LoginLimit::kMostFailures; ++i) {
+    EXPECT_EQ(browser.Post("/api/v1/login", R"({"token":"guess"})", "")->status, 401);
+  }
+  EXPECT_EQ(browser.Post("/api/v1/login", R"({"token":"guess"})", "")->status, 429);
+  EXPECT_EQ(browser.Post("/api/v1/login", R"({"token":"secret-r"})", "")->status, 200);
+  EXPECT_EQ(browser.Get("/login?once=guess")->get_header_value("Location"), "/#/login?link=used");
+  EXPECT_EQ(browser.Get("/healthz")->status, 200);
 }
 
 }  // namespace

@@ -200,7 +200,7 @@ TEST_F(LocalizationSessionTest, EndsOnceTheCallerMayNotUseTheJourneyAnyMore) {
   bool is_reader = true;
   for (const char* pattern : {kJourney, "robots/r/journeys/-"}) {
     is_reader = true;
-    HomingQuery query;
+    LocalizationQuery query;
     query.journey = pattern;
     query.travel = Travel::kSame;
     query.filter = [&](const storage::JourneyRecord& record) {
