@@ -46,6 +46,7 @@ class LocalizationSession {
                                                                    const DecodeLimits& limits);
 
   // The first observation may have any sequence; each later one must have the next: OUT_OF_RANGE.
+  // PERMISSION_DENIED: the caller is no reader of it any more.
   // NOT_FOUND: the named journey was deleted, or all of a wildcard. After one of a wildcard was
   // deleted, the belief over the others is kept, as after a break. FAILED_PRECONDITION: other
   // camera or settings. INVALID_ARGUMENT. RESOURCE_EXHAUSTED: as JourneyCatalog::LoadMaps.
