@@ -4,7 +4,6 @@
 #include <cmath>
 #include <map>
 
-#include "homing/base/mutex.h"
 #include "homing/profile/route_scale.h"
 
 namespace homing {
@@ -59,9 +58,7 @@ SpeedEvidence::SpeedEvidence(double noise) {
 }
 
 std::shared_ptr<const SpeedEvidence> SpeedEvidence::OfNoise(double noise) {
-  static Mutex mutex;
-  static std::map<double, std::weak_ptr<const SpeedEvidence>> used;
-  const MutexLock lock(mutex);
+  static thread_local std::map<double, std::weak_ptr<const SpeedEvidence>> used;
   std::erase_if(used, [](const auto& entry) { return entry.second.expired(); });
   std::shared_ptr<const SpeedEvidence> shared = used[noise].lock();
   if (!shared) used[noise] = shared = std::make_shared<const SpeedEvidence>(noise);

@@ -26,7 +26,7 @@ class SpeedEvidence {
 
   // `noise`: deviation of log2 of the ratio, octaves.
   explicit SpeedEvidence(double noise);
-  // The same, shared by all robots whose maps have this noise: the tables take 22 KB. Thread-safe.
+  // The same, shared by the robots of a thread whose maps have this noise: the tables take 22 KB.
   static std::shared_ptr<const SpeedEvidence> OfNoise(double noise);
 
   // Index of a difference of two odometer readings.
