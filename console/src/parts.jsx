@@ -76,7 +76,9 @@ export function Chart({ title, x, series, xLabel, xRange, yLabel, range, height 
   const made = useRef('');
   useEffect(() => {
     const key = [title, xRange, series.map((s) => s.label), themed(), height].join();
-    const data = [x, ...series.map((s) => s.values)];
+    // uPlot stretches a single instant over a day.
+    const alone = time && x.length === 1;
+    const data = [alone ? [x[0] - 30, ...x] : x, ...series.map((s) => (alone ? [null, ...s.values] : s.values))];
     if (plot.current && made.current === key) {
       plot.current.setData(data);
       return;
