@@ -188,8 +188,8 @@ TEST_F(ProfileLikelihoodTest, ALongForeignWayLeavesTheOddsBounded) {
 // A scene that changes over several steps: an observation of one camera says little, and what a
 // restart gives to each step is never weighed away.
 TEST_F(ProfileLikelihoodTest, AKnownPlaceIsHeldByFewSteps) {
-  constexpr int kSteps = 400;
-  constexpr int kScene = 8;
+  constexpr int kSteps = 800;
+  constexpr int kScene = 14;
   const auto field_at = [this](int step) {
     FlowField field = fields_[static_cast<std::size_t>(step / kScene)];
     const FlowField& next = fields_[static_cast<std::size_t>(step / kScene + 1)];
