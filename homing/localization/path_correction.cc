@@ -28,7 +28,7 @@ constexpr double kCorrectionSpacing = 0.10;
 // reported after kDrivenAtStart.
 constexpr double kLeastDriven = 0.003;
 constexpr double kLeastOfTurn = 0.15;
-constexpr double kDrivenAtStart = 0.06;
+constexpr double kDrivenAtStart = 0.2;
 
 // Of the cells.
 double ShareOf(const CellMask& covered) {
@@ -50,6 +50,7 @@ void PathPoseFilter::Correct(const JourneyMap& map, std::int64_t step, const Obs
   if (std::abs(driven_) < std::max(kLeastDriven, kLeastOfTurn * std::abs(turned_))) return;
   uncorrected_ += std::abs(driven_);
   if (uncorrected_ < kCorrectionSpacing) return;
+  driven_since_lost_ += uncorrected_;
   uncorrected_ = 0;
   Tried tried = PosesToTry();
   const std::int64_t first = std::max<std::int64_t>(0, step - kSteps);
@@ -139,7 +140,6 @@ void PathPoseFilter::Fit(const Tried& tried) {
   heading_variance_ = std::max(hh / sum - mean_h * mean_h, kLeastHeading * kLeastHeading);
   const double most = 0.9 * std::sqrt(offset_variance_ * heading_variance_);
   covariance_ = std::clamp(oh / sum - mean_o * mean_h, -most, most);
-  driven_since_lost_ += std::abs(driven_);
   is_started_ = is_started_ || driven_since_lost_ > kDrivenAtStart;
 }
 

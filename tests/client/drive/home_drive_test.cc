@@ -97,6 +97,23 @@ TEST_P(HomeDriveTest, TheSameSeedDrivesTheSamePath) {
 
 // Metres over the distance of what is seen, which differs from world to world: it is that of the
 // offsets of up to a metre. Landmarks stand so far apart that farther off only their side is sure.
+// Many short steps: the distance driven counts, not the number of observations.
+TEST_P(HomeDriveTest, TheFirstOffsetComesSoon) {
+  constexpr double kStepM = 0.05;
+  ProjectedEyes eyes(cameras_.get(), {.seed = 3});
+  drive::LocalLocalizer localizer(&map_, Travel::kReturn);
+  double driven_m = 0;
+  for (std::int64_t frame = 0; driven_m < 10; driven_m += kStepM) {
+    Pose pose = cameras_->route().At(20 - driven_m);
+    pose.heading += kTurn / 2;
+    Observation seen = eyes.See(pose, 5000 + frame);
+    seen.sequence = frame++;
+    const auto answer = localizer.Answer(seen);
+    if (answer.ok() && answer->path_offset) break;
+  }
+  EXPECT_LT(driven_m, 3);
+}
+
 TEST_P(HomeDriveTest, PathOffsetGrowsWithTheOffsetAndIsNearTheTruth) {
   constexpr std::array kLeftM{-2.0, -1.5, -1.0, -0.5, 0.0, 0.5, 1.0, 1.5, 2.0};
   const double sure_m = std::string(GetParam()).find("street") == std::string::npos ? 1 : 2;
