@@ -91,9 +91,7 @@ absl::Status PositionFilter::Start(std::span<const JourneyRef> journeys,
 void PositionFilter::Grow(std::span<const JourneyRef> journeys) {
   const std::int64_t before = step_count_;
   step_count_ = 0;
-  for (const JourneyRef& journey : journeys) {
-    step_count_ += journey.map->step_count();
-  }
+  for (const JourneyRef& journey : journeys) step_count_ += journey.map->step_count();
   beliefs_.resize(journeys.size());
   if (!options_.paper_only) {
     profile_likelihood_.Grow(journeys);
@@ -142,9 +140,7 @@ void PositionFilter::Predict(Motion motion) {
 std::vector<StepMass> PositionFilter::Masses() const {
   std::vector<StepMass> masses;
   masses.reserve(beliefs_.size());
-  for (const RouteBelief& belief : beliefs_) {
-    masses.push_back(belief.Masses());
-  }
+  for (const RouteBelief& belief : beliefs_) masses.push_back(belief.Masses());
   return masses;
 }
 
@@ -272,9 +268,7 @@ void PositionFilter::FocusIfKnown() {
 }
 
 void PositionFilter::Unfocus() {
-  for (RouteBelief& belief : beliefs_) {
-    belief.Unfocus();
-  }
+  for (RouteBelief& belief : beliefs_) belief.Unfocus();
   masses_ = Masses();
 }
 
