@@ -26,16 +26,16 @@ constexpr double kLeastFit = -0.3;
 constexpr double kFitUnit = 0.4;
 // Steps around the believed one that count for it, correlation lengths.
 constexpr double kNearSteps = 1;
-// The active window holds steps of at least this mass. It is used while the robot is on the route
-// and at one place with at least these probabilities.
+// The active window holds steps of at least this mass, and of at least so many times what a restart
+// gives to each step: with one camera or short steps an observation says too little to weigh that
+// away. The window is used while the robot is on the route and at one place with at least these
+// probabilities.
 constexpr double kFarMass = 1e-9;
-constexpr double kKnownOnRoute = 0.95;
-constexpr double kKnownPlace = 0.99;
-// On a longer map it holds only steps of more than so many times what a restart gives to each. With
-// one camera or short steps an observation says too little to weigh that away.
-constexpr std::int64_t kShortMap = 512;
 constexpr double kFarRestarts = 2;
-// Not for a robot that advances more steps an observation: the belief follows it by jumps alone.
+constexpr double kKnownOnRoute = 0.95;
+constexpr double kKnownPlace = 0.999;
+// A robot that advances more steps an observation is followed by jumps alone, so all steps are
+// held.
 constexpr double kFollowedSpeed = 0.75 * kSpeeds.back();
 // The paper's P_T alone: log odds by observation, bounded by RouteMembership.
 constexpr double kLandmarkWeight = 1;
@@ -250,17 +250,14 @@ void PositionFilter::Correct(std::span<const JourneyRef> journeys, const SeenSid
 }
 
 void PositionFilter::FocusIfKnown() {
-  const bool known = membership_.OnRoute() >= kKnownOnRoute &&
+  const bool known = membership_.OnRoute() >= kKnownOnRoute && speed_.absolute <= kFollowedSpeed &&
                      FindBest(options_.tolerance_steps).window.mass >= kKnownPlace;
   if (!known) {
     Unfocus();
     return;
   }
-  double least = kFarMass;
-  if (step_count_ > kShortMap && speed_.absolute <= kFollowedSpeed) {
-    const double restart = options_.restart_probability / static_cast<double>(step_count_);
-    least = std::max(least, kFarRestarts * restart);
-  }
+  const double restart = options_.restart_probability / static_cast<double>(step_count_);
+  const double least = std::max(kFarMass, kFarRestarts * restart);
   for (std::size_t i = 0; i < beliefs_.size(); ++i) {
     beliefs_[i].Focus(least, masses_[i]);
   }

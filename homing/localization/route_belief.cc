@@ -162,8 +162,9 @@ void RouteBelief::MoveMixed(std::size_t lane, const Motion& motion, double resta
            static_cast<float>(restart * kPrior), moved);
 }
 
-// Speed by speed, both directions at once: only the speed before is needed as it was. So a window
-// of the same size is changed in place, and less memory is gone through than with all lanes twice.
+// Speed by speed, both directions at once, because a lane needs the one of the speed before as it
+// was. A window that keeps its size is changed in place: that reads and writes less memory than a
+// copy of all lanes.
 void RouteBelief::Carry(const Motion& motion, double restart) {
   if (focus_size() == 0) {
     AddToEach(restart);

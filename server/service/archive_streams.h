@@ -66,7 +66,8 @@ class ImportStream final
   std::shared_ptr<ImportStream> self_;
   grpc::ByteBuffer bytes_;
   v1::ImportJourneyResponse response_;
-  // Waits for the client: who sets it to false goes on with the stream.
+  // True while the stream waits for the client. The thread that sets it to false continues the
+  // stream.
   std::atomic<bool> reading_ = false;
   std::string name_;
   std::string file_;

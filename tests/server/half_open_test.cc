@@ -19,7 +19,7 @@ using ::testing::HasSubstr;
 constexpr char kGet[] = "/homing.v1.JourneyService/GetJourney";
 constexpr char kWatch[] = "/homing.v1.FleetService/WatchRobot";
 
-// Sends headers, and nothing else unless it is told.
+// Sends the headers of a call. Sends a request only if the test asks for one.
 class HalfOpenCall {
  public:
   HalfOpenCall(const std::shared_ptr<grpc::Channel>& channel, const std::string& method,
