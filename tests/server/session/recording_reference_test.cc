@@ -31,15 +31,17 @@ TEST_F(RecordingReferenceTest, ASlowRobotGoesOnFromItsReferenceManyFramesBack) {
   constexpr int kFrames = 30;
   constexpr int kFramesAPlace = 7;
   Create("robots/r/journeys/whole");
-  Ear whole_ear;
-  const auto whole_session = Open(&whole_ear, {}, "writer", "robots/r/journeys/whole").value();
-  for (int i = 0; i < kFrames; ++i) {
-    whole_session->Record(FrameAt(i, i / kFramesAPlace), {});
-    const RecordingAnswer answer = whole_ear.AwaitAnswers(static_cast<std::size_t>(i) + 2).back();
-    EXPECT_EQ(answer.next_sequence, i + 1);
-    EXPECT_EQ(answer.resend_from, i - i % kFramesAPlace);
-    EXPECT_EQ(answer.step.has_value(), i > 0 && i % kFramesAPlace == 0);
-    EXPECT_EQ(answer.is_standing, i % kFramesAPlace != 0);
+  {
+    Ear whole_ear;
+    const auto whole_session = Open(&whole_ear, {}, "writer", "robots/r/journeys/whole").value();
+    for (int i = 0; i < kFrames; ++i) {
+      whole_session->Record(FrameAt(i, i / kFramesAPlace), {});
+      const RecordingAnswer answer = whole_ear.AwaitAnswers(static_cast<std::size_t>(i) + 2).back();
+      EXPECT_EQ(answer.next_sequence, i + 1);
+      EXPECT_EQ(answer.resend_from, i - i % kFramesAPlace);
+      EXPECT_EQ(answer.step.has_value(), i > 0 && i % kFramesAPlace == 0);
+      EXPECT_EQ(answer.is_standing, i % kFramesAPlace != 0);
+    }
   }
   for (int next = 0; next < kFrames; ++next) {
     OpenStore(0);
