@@ -96,14 +96,16 @@ TEST_F(RecordingReferenceTest, AStandingCameraStoresNoStep) {
 }
 
 TEST_F(RecordingReferenceTest, StepsOfFlowKeepTheFramesThatTheClientNames) {
-  Ear ear;
-  const auto session = Open(&ear).value();
-  for (int i = 0; i < 3; ++i) {
-    Observation observation = test::FlowAt(i);
-    observation.frame = 10 * i + 4;
-    session->Record(observation, {});
+  {
+    Ear ear;
+    const auto session = Open(&ear).value();
+    for (int i = 0; i < 3; ++i) {
+      Observation observation = test::FlowAt(i);
+      observation.frame = 10 * i + 4;
+      session->Record(observation, {});
+    }
+    EXPECT_EQ(ear.AwaitAnswers(4).back().frame, 24);
   }
-  EXPECT_EQ(ear.AwaitAnswers(4).back().frame, 24);
   OpenStore(0);
   Ear again;
   const auto resumed = Open(&again).value();
