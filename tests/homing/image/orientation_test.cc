@@ -112,5 +112,17 @@ TEST(OrientationTest, DecodingTurnsTheImage) {
   EXPECT_LT(gray->at<unsigned char>(31, 47), 20);
 }
 
+TEST(OrientationTest, TheSizeOfTheTurnedImageIsInTheHeader) {
+  const std::string file = WithExif(EncodeJpeg(Slope(), 100), Tiff(6, false));
+  // Without most of the pixels.
+  const std::string cut = file.substr(0, file.size() - 200);
+  EXPECT_FALSE(DecodeGray({FrameEncoding::kJpeg, 0, 0, cut}).ok());
+  EXPECT_EQ(MeasureGray({FrameEncoding::kJpeg, 0, 0, cut}).value(), cv::Size(32, 48));
+  const std::string png = EncodePng(Slope(), {}).substr(0, 50);
+  EXPECT_FALSE(DecodeGray({FrameEncoding::kPng, 0, 0, png}).ok());
+  EXPECT_EQ(MeasureGray({FrameEncoding::kPng, 0, 0, png}).value(), cv::Size(48, 32));
+  EXPECT_FALSE(MeasureGray({FrameEncoding::kPng, 49, 0, png}).ok());
+}
+
 }  // namespace
 }  // namespace homing
