@@ -18,6 +18,7 @@
 #include "server/admission/rate_limiter.h"
 #include "server/admission/stream_limiter.h"
 #include "server/base/memory_budget.h"
+#include "server/base/request_memory.h"
 #include "server/base/worker_pool.h"
 #include "server/catalog/fleet_index.h"
 #include "server/catalog/journey_catalog.h"
@@ -122,6 +123,9 @@ struct ServiceCore {
   // Memory of the answers of unary calls that are not sent yet.
   const std::shared_ptr<MemoryBudget> answers =
       std::make_shared<MemoryBudget>(options.limits.memory_quota);
+  // Memory of the large requests that wait for a worker.
+  const std::shared_ptr<RequestMemory> requests =
+      std::make_shared<RequestMemory>(options.limits.memory_quota);
   storage::CommitQueue queue;
   StreamRegistry streams;
   // Runs long tasks, one at a time, so that robots do not wait for them.
