@@ -97,11 +97,11 @@ class BidiStream : public grpc::ServerBidiReactor<grpc::ByteBuffer, Response>,
         FinishIfOver();
         return;
       }
-      WorkerPool* const store_pool = StorePoolOf(*request);
+      WorkerPool* const other_pool = OtherPoolOf(*request);
       task = [self = this->shared_from_this(), request] { self->HandleGuarded(*request); };
       read_after_answer = policy_.NoteWait(std::chrono::steady_clock::now() - read_begin_);
-      if (store_pool != nullptr || !policy_.RunsInline(bytes)) {
-        strand_->PostTo(store_pool != nullptr ? store_pool : &core_->pool, std::move(task));
+      if (other_pool != nullptr || !policy_.RunsInline(bytes)) {
+        strand_->PostTo(other_pool != nullptr ? other_pool : &core_->pool, std::move(task));
         reading_ = false;
         ReadNext();
         return;
@@ -144,9 +144,9 @@ class BidiStream : public grpc::ServerBidiReactor<grpc::ByteBuffer, Response>,
   }
 
  protected:
-  // The pool that handles a request which may wait for the store; null: it only computes. Called
-  // for each request as it is read, in order, on gRPC's threads.
-  virtual WorkerPool* StorePoolOf(const Request& request) = 0;
+  // The pool that handles a request which may wait for the store or has large images; null: the
+  // workers'. Called for each request as it is read, in order, on gRPC's threads.
+  virtual WorkerPool* OtherPoolOf(const Request& request) = 0;
   // Handles one request at a time, in order. Each one leads to one Answer, one NoAnswer or an End.
   virtual absl::Status Handle(const Request& request) = 0;
   // Ends the stream after the answers to earlier requests.

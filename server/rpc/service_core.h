@@ -84,11 +84,13 @@ struct ServiceCore {
         rates(core_options.limits.max_robot_rate),
         slots(core_options.limits.max_streams, core_options.limits.max_robot_streams),
         queue(store.get(), QueueOptions(metrics.get())),
-        pool(core_options.workers) {}
+        pool(core_options.workers),
+        large_images(core_options.workers) {}
   ~ServiceCore() {
     archives.Stop();
     store_writes.Stop();
     store_reads.Stop();
+    large_images.Stop();
     pool.Stop();
   }
   ServiceCore(const ServiceCore&) = delete;
@@ -138,6 +140,9 @@ struct ServiceCore {
   WorkerPool store_reads{kStoreReaders};
   // For work that computes.
   WorkerPool pool;
+  // For images above a megapixel, which take up to seconds. The system shares the processor between
+  // these threads and the pool's, so that robots with usual images do not wait for a large one.
+  WorkerPool large_images;
 };
 
 }  // namespace homing::server

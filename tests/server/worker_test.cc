@@ -1,4 +1,5 @@
 // Long work on a server with one worker: others do not wait for it.
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <functional>
@@ -59,7 +60,7 @@ v1::MatchLandmarksRequest WorkerTest::CostlyQuery(int side_px) {
   journey.set_parent("robots/r");
   journey.set_journey_id("costly");
   v1::FlowSettings* flow = journey.mutable_journey()->mutable_settings()->mutable_flow();
-  flow->set_working_width_px(2 * side_px);
+  flow->set_working_width_px(std::min(2 * side_px, 2048));
   flow->set_window_px(63);
   flow->set_cell_px(16);
   flow->set_min_eigenvalue(1e-6);
@@ -141,6 +142,19 @@ TEST_F(WorkerTest, AFramePairOfAClientThatDoesNotWaitFreesItsWorker) {
   EXPECT_THAT(match(part), GrpcStatusIs(grpc::StatusCode::DEADLINE_EXCEEDED, HasSubstr("")));
   // The one worker is free.
   EXPECT_LT(SecondsOf([&] { CallWorker(); }), 0.4 * whole);
+}
+
+TEST_F(WorkerTest, LargeImagesHoldUpNobodyWithUsualOnes) {
+  const v1::MatchLandmarksRequest request = CostlyQuery(1200);
+  const auto match = [&] {
+    grpc::ClientContext context;
+    v1::MatchLandmarksResponse response;
+    EXPECT_THAT(homing_->MatchLandmarks(&context, request, &response), IsGrpcOk());
+  };
+  const double whole = SecondsOf(match);
+  const auto running = std::async(std::launch::async, match);
+  std::this_thread::sleep_for(std::chrono::duration<double>(0.1 * whole));
+  EXPECT_LT(SecondsOf([&] { CallWorker(); }), 0.3 * whole);
 }
 
 TEST_F(WorkerTest, TheAnalysisOfARouteThatRepeatsItselfHoldsUpNobody) {
