@@ -6,6 +6,7 @@
 #include "absl/strings/str_cat.h"
 #include "absl/strings/strip.h"
 #include "client/command/real_range.h"
+#include "client/command/shown_text.h"
 #include "client/rpc_status.h"
 #include "client/server_address.h"
 #include "homing/base/status_macros.h"
@@ -42,7 +43,7 @@ absl::StatusOr<Connection> Session::Connect() const {
 }
 
 void Session::Log(const std::string& text) const {
-  if (!quiet) std::fputs(absl::StrCat(program, ": ", text, "\n").c_str(), stderr);
+  if (!quiet) std::fputs(absl::StrCat(program, ": ", ShownText(text), "\n").c_str(), stderr);
 }
 
 FrameChoice Session::WithReports(FrameChoice choice) const {
@@ -52,7 +53,7 @@ FrameChoice Session::WithReports(FrameChoice choice) const {
 }
 
 absl::Status Session::Print(const std::string& line) const {
-  std::fputs((line + "\n").c_str(), stdout);
+  std::fputs((ShownText(line) + "\n").c_str(), stdout);
   if (std::fflush(stdout) != 0) {
     return absl::FailedPreconditionError("cannot write to standard output");
   }
@@ -99,10 +100,10 @@ void AddCommonFlags(CLI::App& app, Session& session) {
 int ExitCode(const Session& session, const absl::Status& status) {
   if (status.ok()) return 0;
   const std::string code = absl::StatusCodeToString(status.code());
-  std::fputs(
-      absl::StrCat(session.program, ": error: ", std::string(status.message()), " (", code, ")\n")
-          .c_str(),
-      stderr);
+  std::fputs(absl::StrCat(session.program, ": error: ", ShownText(std::string(status.message())),
+                          " (", code, ")\n")
+                 .c_str(),
+             stderr);
   if (const std::string advice = AdviceOn(status); !advice.empty()) {
     std::fputs(absl::StrCat(session.program, ": ", advice, "\n").c_str(), stderr);
   }

@@ -34,7 +34,7 @@ struct Session {
   void Log(const std::string& text) const;
   // Adds this command's log and stop signal to the choice.
   FrameChoice WithReports(FrameChoice choice) const;
-  // Writes and flushes one line on stdout. FAILED_PRECONDITION: stdout is closed.
+  // Writes and flushes one line on stdout, as ShownText. FAILED_PRECONDITION: stdout is closed.
   absl::Status PrintJson(const nlohmann::ordered_json& line) const;
   absl::Status Print(const std::string& line) const;
 };

@@ -1,6 +1,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cstdio>
 #include <map>
 #include <memory>
 #include <string>
@@ -99,7 +100,7 @@ absl::Status Follow(const Session& session) {
         all.reserve(robots.size());
         for (const auto& [name, robot] : robots) all.push_back(robot);
         // Cursor home, then clear below: the table replaces the previous one.
-        HOMING_RETURN_IF_ERROR(session.Print("\x1b[H\x1b[J"));
+        std::fputs("\x1b[H\x1b[J", stdout);
         return PrintRobots(session, std::move(all));
       });
   return session.stop.stop_requested() ? absl::OkStatus() : status;

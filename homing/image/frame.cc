@@ -14,6 +14,11 @@
 namespace homing {
 namespace {
 
+absl::Status UnknownEncoding(const Frame& frame) {
+  return MustBe("frame.encoding", static_cast<int>(frame.encoding),
+                "GRAY8, RGB8, BGR8, JPEG or PNG");
+}
+
 absl::StatusOr<cv::Mat> Decode(const Frame& frame, const DecodeLimits& limits) {
   switch (frame.encoding) {
     case FrameEncoding::kGray8:
@@ -25,8 +30,25 @@ absl::StatusOr<cv::Mat> Decode(const Frame& frame, const DecodeLimits& limits) {
     case FrameEncoding::kPng:
       return DecodePng(frame, limits);
   }
-  return MustBe("frame.encoding", static_cast<int>(frame.encoding),
-                "GRAY8, RGB8, BGR8, JPEG or PNG");
+  return UnknownEncoding(frame);
+}
+
+absl::StatusOr<cv::Size> Measure(const Frame& frame, const DecodeLimits& limits) {
+  switch (frame.encoding) {
+    case FrameEncoding::kGray8:
+    case FrameEncoding::kRgb8:
+    case FrameEncoding::kBgr8:
+      return MeasureRaw(frame, limits);
+    case FrameEncoding::kJpeg:
+      return MeasureJpeg(frame, limits);
+    case FrameEncoding::kPng:
+      return MeasurePng(frame, limits);
+  }
+  return UnknownEncoding(frame);
+}
+
+bool IsFile(const Frame& frame) {
+  return frame.encoding == FrameEncoding::kJpeg || frame.encoding == FrameEncoding::kPng;
 }
 
 }  // namespace
@@ -36,15 +58,19 @@ absl::StatusOr<cv::Mat> DecodeGray(const Frame& frame, const DecodeLimits& limit
   try {
     HOMING_RETURN_IF_ERROR(CheckAwaited(limits.cancellation));
     absl::StatusOr<cv::Mat> gray = Decode(frame, limits);
-    const bool file =
-        frame.encoding == FrameEncoding::kJpeg || frame.encoding == FrameEncoding::kPng;
-    if (!gray.ok() || !file) return gray;
+    if (!gray.ok() || !IsFile(frame)) return gray;
     return TurnUpright(*gray, ExifOrientation(frame.data));
   } catch (const cv::Exception& error) {
     return absl::ResourceExhaustedError(absl::StrCat("frame could not be decoded: ", error.err));
   } catch (const std::bad_alloc&) {
     return absl::ResourceExhaustedError("out of memory while decoding the frame");
   }
+}
+
+absl::StatusOr<cv::Size> MeasureGray(const Frame& frame, const DecodeLimits& limits) {
+  const absl::StatusOr<cv::Size> size = Measure(frame, limits);
+  if (!size.ok() || !IsFile(frame) || !ExchangesSides(ExifOrientation(frame.data))) return size;
+  return cv::Size(size->height, size->width);
 }
 
 }  // namespace homing

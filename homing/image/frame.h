@@ -40,6 +40,10 @@ struct DecodeLimits {
 // CANCELLED. Thread-safe.
 absl::StatusOr<cv::Mat> DecodeGray(const Frame& frame, const DecodeLimits& limits = {});
 
+// The size of that image, from the header alone, which costs no decoding: the data behind it may
+// still be no complete image. INVALID_ARGUMENT as above. Thread-safe.
+absl::StatusOr<cv::Size> MeasureGray(const Frame& frame, const DecodeLimits& limits = {});
+
 }  // namespace homing
 
 #endif  // HOMING_IMAGE_FRAME_H_

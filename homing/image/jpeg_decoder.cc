@@ -101,20 +101,32 @@ absl::Status JpegError(const Decoder& decoder) {
   return FieldError("frame.data", absl::StrCat("is not a complete JPEG image: ", decoder.message));
 }
 
+// The size in the header, within the limits.
+absl::StatusOr<cv::Size> ReadSize(const Frame& frame, const DecodeLimits& limits,
+                                  Decoder* decoder) {
+  decoder->cancellation = limits.cancellation;
+  Begin(decoder);
+  if (!ReadHeader(decoder, frame.data)) return JpegError(*decoder);
+  const Dimensions size{decoder->jpeg.image_width, decoder->jpeg.image_height};
+  HOMING_RETURN_IF_ERROR(CheckLimits(size, limits));
+  HOMING_RETURN_IF_ERROR(CheckDeclared(frame, size));
+  return cv::Size(static_cast<int>(size.width), static_cast<int>(size.height));
+}
+
 }  // namespace
+
+absl::StatusOr<cv::Size> MeasureJpeg(const Frame& frame, const DecodeLimits& limits) {
+  Decoder decoder;
+  return ReadSize(frame, limits, &decoder);
+}
 
 absl::StatusOr<cv::Mat> DecodeJpeg(const Frame& frame, const DecodeLimits& limits) {
   Decoder decoder;
-  decoder.cancellation = limits.cancellation;
-  Begin(&decoder);
-  if (!ReadHeader(&decoder, frame.data)) return JpegError(decoder);
-  const Dimensions size{decoder.jpeg.image_width, decoder.jpeg.image_height};
-  HOMING_RETURN_IF_ERROR(CheckLimits(size, limits));
-  HOMING_RETURN_IF_ERROR(CheckDeclared(frame, size));
+  HOMING_ASSIGN_OR_RETURN(const cv::Size size, ReadSize(frame, limits, &decoder));
   const std::int64_t pixels = std::int64_t{size.width} * std::int64_t{size.height};
   decoder.max_scans =
       static_cast<int>(std::min<std::int64_t>(kMaxScans, kMaxPixelsOfScans / pixels));
-  cv::Mat gray(static_cast<int>(size.height), static_cast<int>(size.width), CV_8UC1);
+  cv::Mat gray(size, CV_8UC1);
   if (!ReadPixels(&decoder, gray.data, gray.step[0])) {
     HOMING_RETURN_IF_ERROR(CheckAwaited(limits.cancellation));
     return JpegError(decoder);

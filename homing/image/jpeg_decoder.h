@@ -11,6 +11,8 @@ namespace homing {
 
 // As DecodeGray, for this encoding only.
 absl::StatusOr<cv::Mat> DecodeJpeg(const Frame& frame, const DecodeLimits& limits);
+// As MeasureGray, for this encoding only, before the image is turned.
+absl::StatusOr<cv::Size> MeasureJpeg(const Frame& frame, const DecodeLimits& limits);
 
 }  // namespace homing
 

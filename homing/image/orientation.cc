@@ -86,7 +86,7 @@ cv::Mat TurnUpright(const cv::Mat& image, int orientation) {
   if (orientation < 2 || orientation > 8) return image;
   cv::Mat upright = image;
   // Orientations 5 to 8 are mirrored along the diagonal first.
-  if (orientation >= 5) cv::transpose(image, upright);
+  if (ExchangesSides(orientation)) cv::transpose(image, upright);
   constexpr int kLeftRight = 1;
   constexpr int kUpDown = 0;
   constexpr int kBoth = -1;

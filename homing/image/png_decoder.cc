@@ -42,18 +42,17 @@ absl::StatusOr<cv::Mat> DecodePixels(spng_ctx* context, const spng_ihdr& header,
   return pixels;
 }
 
-}  // namespace
-
-absl::StatusOr<cv::Mat> DecodePng(const Frame& frame, const DecodeLimits& limits) {
-  const Context context(spng_ctx_new(0));
+// The header, of an image within the limits.
+absl::StatusOr<spng_ihdr> ReadHeader(spng_ctx* context, const Frame& frame,
+                                     const DecodeLimits& limits) {
   if (context == nullptr) {
     return absl::InternalError("no PNG decoder could be made");
   }
-  spng_set_chunk_limits(context.get(), kChunkBytes, kChunkBytes);
+  spng_set_chunk_limits(context, kChunkBytes, kChunkBytes);
   spng_ihdr header{};
-  int code = spng_set_png_buffer(context.get(), frame.data.data(), frame.data.size());
+  int code = spng_set_png_buffer(context, frame.data.data(), frame.data.size());
   if (code == 0) {
-    code = spng_get_ihdr(context.get(), &header);
+    code = spng_get_ihdr(context, &header);
   }
   if (code != 0) {
     return PngError(code);
@@ -61,6 +60,20 @@ absl::StatusOr<cv::Mat> DecodePng(const Frame& frame, const DecodeLimits& limits
   const Dimensions dimensions{header.width, header.height};
   HOMING_RETURN_IF_ERROR(CheckLimits(dimensions, limits));
   HOMING_RETURN_IF_ERROR(CheckDeclared(frame, dimensions));
+  return header;
+}
+
+}  // namespace
+
+absl::StatusOr<cv::Size> MeasurePng(const Frame& frame, const DecodeLimits& limits) {
+  const Context context(spng_ctx_new(0));
+  HOMING_ASSIGN_OR_RETURN(const spng_ihdr header, ReadHeader(context.get(), frame, limits));
+  return cv::Size(static_cast<int>(header.width), static_cast<int>(header.height));
+}
+
+absl::StatusOr<cv::Mat> DecodePng(const Frame& frame, const DecodeLimits& limits) {
+  const Context context(spng_ctx_new(0));
+  HOMING_ASSIGN_OR_RETURN(const spng_ihdr header, ReadHeader(context.get(), frame, limits));
   if (header.bit_depth == 16 && header.color_type == SPNG_COLOR_TYPE_GRAYSCALE) {
     HOMING_ASSIGN_OR_RETURN(const cv::Mat deep,
                             DecodePixels(context.get(), header, SPNG_FMT_PNG, CV_16UC1));

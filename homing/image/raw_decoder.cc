@@ -9,7 +9,7 @@
 
 namespace homing {
 
-absl::StatusOr<cv::Mat> DecodeRaw(const Frame& frame, const DecodeLimits& limits) {
+absl::StatusOr<cv::Size> MeasureRaw(const Frame& frame, const DecodeLimits& limits) {
   HOMING_RETURN_IF_ERROR(CheckLimits({frame.width, frame.height}, limits));
   const bool gray = frame.encoding == FrameEncoding::kGray8;
   const std::size_t expected = static_cast<std::size_t>(frame.width) *
@@ -19,9 +19,15 @@ absl::StatusOr<cv::Mat> DecodeRaw(const Frame& frame, const DecodeLimits& limits
                   absl::StrCat(expected, " bytes: ", frame.width, " x ", frame.height,
                                gray ? " x 1" : " x 3"));
   }
+  return cv::Size(frame.width, frame.height);
+}
+
+absl::StatusOr<cv::Mat> DecodeRaw(const Frame& frame, const DecodeLimits& limits) {
+  HOMING_ASSIGN_OR_RETURN(const cv::Size size, MeasureRaw(frame, limits));
+  const bool gray = frame.encoding == FrameEncoding::kGray8;
   // cv::Mat has no constructor for const data; the view is only read.
   void* bytes = const_cast<char*>(frame.data.data());
-  const cv::Mat view(frame.height, frame.width, gray ? CV_8UC1 : CV_8UC3, bytes);
+  const cv::Mat view(size, gray ? CV_8UC1 : CV_8UC3, bytes);
   if (gray) {
     return view.clone();
   }

@@ -11,6 +11,8 @@ namespace homing {
 
 // As DecodeGray, for the uncompressed encodings only.
 absl::StatusOr<cv::Mat> DecodeRaw(const Frame& frame, const DecodeLimits& limits);
+// As MeasureGray, for this encoding only.
+absl::StatusOr<cv::Size> MeasureRaw(const Frame& frame, const DecodeLimits& limits);
 
 }  // namespace homing
 

@@ -3,6 +3,7 @@
 #define SERVER_BASE_READ_WINDOW_H_
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 namespace homing::server {
@@ -31,6 +32,10 @@ class ReadWindow {
     return sizes_.size() + unsent >= max_requests || bytes_ >= kMaxBytes;
   }
   bool IsEmpty() const { return sizes_.empty(); }
+  // Bytes of the requests; 0 up to kMaxBytes, which each stream may have.
+  std::int64_t large_bytes() const {
+    return bytes_ > kMaxBytes ? static_cast<std::int64_t>(bytes_) : 0;
+  }
 
  private:
   // A vector and not a deque: an empty deque takes 600 bytes, and there are many streams.

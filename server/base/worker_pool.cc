@@ -40,31 +40,29 @@ void WorkerPool::Stop() {
     thread.join();
   }
   threads_.clear();
-  std::deque<Task> left;
+  TurnQueue left;
   {
     const MutexLock lock(mutex_);
     stopped_ = true;
-    left.swap(tasks_);
+    std::swap(left, tasks_);
   }
   // Another pool's tasks may have added them after the last thread had ended.
-  for (const Task& task : left) {
-    task();
-  }
+  while (!left.empty()) left.Take()();
 }
 
-bool WorkerPool::TryRun(Task task) {
+bool WorkerPool::TryRun(Task task, const std::string& caller) {
   {
     const MutexLock lock(mutex_);
-    if (tasks_.size() >= max_waiting_) {
+    if (tasks_.size() >= max_waiting_ && tasks_.HasTaskOf(caller)) {
       return false;
     }
-    tasks_.push_back(std::move(task));
+    tasks_.Add(caller, std::move(task));
   }
   changed_.NotifyOne();
   return true;
 }
 
-void WorkerPool::Run(Task task) {
+void WorkerPool::Run(Task task, const std::string& caller) {
   {
     MutexLock lock(mutex_);
     if (stopped_) {
@@ -72,7 +70,7 @@ void WorkerPool::Run(Task task) {
       task();
       return;
     }
-    tasks_.push_back(std::move(task));
+    tasks_.Add(caller, std::move(task));
   }
   changed_.NotifyOne();
 }
@@ -89,8 +87,7 @@ void WorkerPool::Work() {
     if (tasks_.empty()) {
       return;
     }
-    Task task = std::move(tasks_.front());
-    tasks_.pop_front();
+    Task task = tasks_.Take();
     lock.Unlock();
     task();
     task = nullptr;
@@ -124,7 +121,7 @@ void Strand::RunOrPost(WorkerPool::Task task) {
 }
 
 void Strand::ScheduleOn(WorkerPool* pool) {
-  pool->Run([self = shared_from_this(), pool] { self->RunSome(pool); });
+  pool->Run([self = shared_from_this(), pool] { self->RunSome(pool); }, caller_);
 }
 
 void Strand::ScheduleRest() {

@@ -26,10 +26,12 @@ constexpr std::size_t kMaxRequests = 1000;
 
 // The body's size as the request declares it; a chunked body has at least one byte.
 std::uint64_t BodyBytes(const httplib::Request& request) {
-  if (request.has_header("Transfer-Encoding")) {
+  const std::size_t chunked = request.get_header_value_count("Transfer-Encoding");
+  if (chunked + request.get_header_value_count("Content-Length") > 1) {
     // Two declarations: a proxy may see another end of the body, so the connection is closed.
-    return request.has_header("Content-Length") ? std::numeric_limits<std::uint32_t>::max() : 1;
+    return std::numeric_limits<std::uint32_t>::max();
   }
+  if (chunked > 0) return 1;
   return std::strtoull(request.get_header_value("Content-Length").c_str(), nullptr, 10);
 }
 

@@ -1,6 +1,7 @@
 // What each request of ConsoleServer does.
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -16,7 +17,9 @@ namespace {
 using httplib::Request;
 using httplib::Response;
 
-constexpr int kMaxFeeds = 32;
+constexpr std::size_t kMaxFeeds = 32;
+// Most feeds of one token: its holder cannot take those of the others.
+constexpr std::ptrdiff_t kMaxFeedsOfToken = 8;
 constexpr std::size_t kMaxRobots = 8;
 constexpr std::chrono::seconds kAlive{5};
 constexpr char kCookie[] = "homing_session";
@@ -179,24 +182,32 @@ void ConsoleServer::State::CallApi(const Request& request, Response* response) {
   Send(response, gateway.Call(request.matches[1], request.body, {login->token, TraceOf(request)}));
 }
 
+std::shared_ptr<EventFeed> ConsoleServer::State::AddFeed(const Login& login,
+                                                         const Request& request) {
+  std::vector<std::string> robots;
+  const auto [begin, end] = request.params.equal_range("robot");
+  for (auto i = begin; i != end && robots.size() < kMaxRobots; ++i) robots.push_back(i->second);
+  const MutexLock lock(mutex);
+  const auto of_token = std::count_if(feeds.begin(), feeds.end(), [&](const auto& open) {
+    return !login.token.empty() && open.second == login.token;
+  });
+  if (stopping || feeds.size() >= kMaxFeeds || of_token >= kMaxFeedsOfToken) return nullptr;
+  auto feed =
+      std::make_shared<EventFeed>(gateway, ApiCaller{login.token, TraceOf(request)}, robots);
+  feeds[feed] = login.token;
+  return feed;
+}
+
 void ConsoleServer::State::SendEvents(const Request& request, Response* response) {
   const auto login = LoginOf(request);
   if (!login.ok()) {
     Send(response, ToAnswer(login.status()));
     return;
   }
-  std::vector<std::string> robots;
-  const auto [begin, end] = request.params.equal_range("robot");
-  for (auto i = begin; i != end && robots.size() < kMaxRobots; ++i) robots.push_back(i->second);
-  std::shared_ptr<EventFeed> feed;
-  {
-    const MutexLock lock(mutex);
-    if (stopping || feeds.size() >= kMaxFeeds) {
-      Send(response, ToAnswer(absl::UnavailableError("too many consoles are open")));
-      return;
-    }
-    feed = std::make_shared<EventFeed>(gateway, ApiCaller{login->token, TraceOf(request)}, robots);
-    feeds.insert(feed);
+  const std::shared_ptr<EventFeed> feed = AddFeed(*login, request);
+  if (!feed) {
+    Send(response, ToAnswer(absl::UnavailableError("too many consoles are open")));
+    return;
   }
   response->set_header("Cache-Control", "no-store");
   response->set_header("X-Accel-Buffering", "no");

@@ -77,13 +77,13 @@ ConsoleServer::~ConsoleServer() {
 }
 
 void ConsoleServer::Stop() {
-  std::set<std::shared_ptr<EventFeed>> feeds;
+  std::map<std::shared_ptr<EventFeed>, std::string> feeds;
   {
     const MutexLock lock(state_->mutex);
     if (std::exchange(state_->stopping, true)) return;
     feeds = state_->feeds;
   }
-  for (const auto& feed : feeds) feed->Stop();
+  for (const auto& [feed, token] : feeds) feed->Stop();
   // stop() has no effect before the server listens.
   while (!state_->server.is_running() && !state_->ended) std::this_thread::yield();
   state_->server.StopServing();

@@ -6,8 +6,8 @@
 
 #include <atomic>
 #include <functional>
+#include <map>
 #include <memory>
-#include <set>
 #include <string>
 #include <thread>
 
@@ -46,6 +46,8 @@ struct ConsoleServer::State {
   void ShowSession(const httplib::Request& request, httplib::Response* response);
   void CallApi(const httplib::Request& request, httplib::Response* response);
   void SendEvents(const httplib::Request& request, httplib::Response* response);
+  // A feed for this login; null: the server stops, or too many are open.
+  std::shared_ptr<EventFeed> AddFeed(const Login& login, const httplib::Request& request);
   void SendAsset(const httplib::Request& request, httplib::Response* response) const;
   std::string CookieHeader(const httplib::Request& request, const std::string& cookie,
                            int seconds) const;
@@ -58,7 +60,8 @@ struct ConsoleServer::State {
   BoundedServer server;
   std::string address;
   Mutex mutex;
-  std::set<std::shared_ptr<EventFeed>> feeds HOMING_GUARDED_BY(mutex);
+  // Each with the token of its login.
+  std::map<std::shared_ptr<EventFeed>, std::string> feeds HOMING_GUARDED_BY(mutex);
   bool stopping HOMING_GUARDED_BY(mutex) = false;
   // The server no longer listens: Stop was called, or the system reported an error.
   std::atomic<bool> ended = false;

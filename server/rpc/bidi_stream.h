@@ -37,7 +37,8 @@ class BidiStream : public grpc::ServerBidiReactor<grpc::ByteBuffer, Response>,
       : core_(core),
         call_(core, *context, rpc),
         watch_(core, context),
-        strand_(std::make_shared<Strand>(&core->pool)) {}
+        strand_(std::make_shared<Strand>(&core->pool, call_.turn_key())),
+        share_(core->requests, call_.turn_key()) {}
 
   void Open() {
     self_ = this->shared_from_this();
@@ -55,12 +56,8 @@ class BidiStream : public grpc::ServerBidiReactor<grpc::ByteBuffer, Response>,
   void Drain() override { PostEnd(DrainingError()); }
 
   void Tick() override {
-    if (const absl::Status status = call_.CheckIdentity(); !status.ok()) {
-      End(status);
-    }
-    if (!watch_.IsIdle()) {
-      return;
-    }
+    if (const absl::Status status = call_.CheckIdentity(); !status.ok()) End(status);
+    if (!watch_.IsIdle()) return;
     bool writing = false;
     bool answered = false;
     {
@@ -84,6 +81,7 @@ class BidiStream : public grpc::ServerBidiReactor<grpc::ByteBuffer, Response>,
     absl::Status parsed;
     if (ok) parsed = Guarded([&] { return ParseRequest(&incoming_, request.get()); });
     incoming_.Clear();
+    if (ok && parsed.ok()) parsed = HoldRequest(bytes);
     WorkerPool::Task task;
     bool read_after_answer = false;
     {
@@ -99,12 +97,11 @@ class BidiStream : public grpc::ServerBidiReactor<grpc::ByteBuffer, Response>,
         FinishIfOver();
         return;
       }
-      window_.Add(bytes);
-      WorkerPool* const store_pool = StorePoolOf(*request);
+      WorkerPool* const other_pool = OtherPoolOf(*request);
       task = [self = this->shared_from_this(), request] { self->HandleGuarded(*request); };
       read_after_answer = policy_.NoteWait(std::chrono::steady_clock::now() - read_begin_);
-      if (store_pool != nullptr || !policy_.RunsInline(bytes)) {
-        strand_->PostTo(store_pool != nullptr ? store_pool : &core_->pool, std::move(task));
+      if (other_pool != nullptr || !policy_.RunsInline(bytes)) {
+        strand_->PostTo(other_pool != nullptr ? other_pool : &core_->pool, std::move(task));
         reading_ = false;
         ReadNext();
         return;
@@ -127,9 +124,7 @@ class BidiStream : public grpc::ServerBidiReactor<grpc::ByteBuffer, Response>,
     spare_.clear();
     spare_.splice(spare_.end(), writes_, writes_.begin());
     spare_.front().Clear();
-    if (!ok) {
-      Break();
-    }
+    if (!ok) Break();
     WriteNext();
     ReadNext();
     FinishIfOver();
@@ -149,9 +144,9 @@ class BidiStream : public grpc::ServerBidiReactor<grpc::ByteBuffer, Response>,
   }
 
  protected:
-  // The pool that handles a request which may wait for the store; null: it only computes. Called
-  // for each request as it is read, in order, on gRPC's threads.
-  virtual WorkerPool* StorePoolOf(const Request& request) = 0;
+  // The pool that handles a request which may wait for the store or has large images; null: the
+  // workers'. Called for each request as it is read, in order, on gRPC's threads.
+  virtual WorkerPool* OtherPoolOf(const Request& request) = 0;
   // Handles one request at a time, in order. Each one leads to one Answer, one NoAnswer or an End.
   virtual absl::Status Handle(const Request& request) = 0;
   // Ends the stream after the answers to earlier requests.
@@ -167,22 +162,20 @@ class BidiStream : public grpc::ServerBidiReactor<grpc::ByteBuffer, Response>,
     if (spare_.empty()) spare_.emplace_back();
     writes_.splice(writes_.end(), spare_, spare_.begin());
     fill(&writes_.back());
-    window_.MarkAnswered();
+    MarkAnswered();
     WriteNext();
     ReadNext();
   }
   void NoAnswer() {
     const MutexLock lock(mutex_);
-    window_.MarkAnswered();
+    MarkAnswered();
     ReadNext();
     FinishIfOver();
   }
   // Ends the stream after the answers given so far.
   void End(const absl::Status& status) {
     const MutexLock lock(mutex_);
-    if (!end_status_) {
-      end_status_ = status;
-    }
+    if (!end_status_) end_status_ = status;
     FinishIfOver();
   }
 
@@ -199,6 +192,19 @@ class BidiStream : public grpc::ServerBidiReactor<grpc::ByteBuffer, Response>,
   // Requests that all streams together may read ahead: fewer than the commit queue holds, so that
   // an overloaded server slows its clients down and refuses nothing.
   static constexpr std::size_t kReadAheadOfAll = 24576;
+
+  // Counts a request that was read. RESOURCE_EXHAUSTED: those that wait take too much memory.
+  absl::Status HoldRequest(std::size_t bytes) {
+    const MutexLock lock(mutex_);
+    window_.Add(bytes);
+    if (share_.TrySet(window_.large_bytes())) return absl::OkStatus();
+    return RequestMemoryError(core_->requests->most());
+  }
+
+  void MarkAnswered() HOMING_REQUIRES(mutex_) {
+    window_.MarkAnswered();
+    share_.TrySet(window_.large_bytes());
+  }
 
   void PostEnd(const absl::Status& status) {
     strand_->Post([self = this->shared_from_this(), status] { self->EndInTurn(status); });
@@ -276,6 +282,8 @@ class BidiStream : public grpc::ServerBidiReactor<grpc::ByteBuffer, Response>,
   // At most one answer, sent and cleared, whose memory is reused.
   std::list<Response> spare_ HOMING_GUARDED_BY(mutex_);
   ReadWindow window_ HOMING_GUARDED_BY(mutex_);
+  // Of the requests in the window.
+  RequestMemory::Share share_ HOMING_GUARDED_BY(mutex_);
   // Call NoteWait with mutex_ held.
   InlinePolicy policy_;
   std::optional<absl::Status> end_status_ HOMING_GUARDED_BY(mutex_);

@@ -62,7 +62,9 @@ class ChunkStream : public grpc::ServerBidiReactor<grpc::ByteBuffer, Response>,
     absl::Status status = ParseOnlyRequest(ok, watch_, &bytes_, &request_);
     bytes_.Clear();
     const auto self = this->shared_from_this();
-    if (status.ok() && !pool_->TryRun([self] { self->Begin(); })) status = BusyError();
+    if (status.ok() && !pool_->TryRun([self] { self->Begin(); }, call_.turn_key())) {
+      status = BusyError();
+    }
     if (!status.ok()) this->Finish(call_.Finish(status));
   }
 

@@ -84,6 +84,7 @@ IncomingCall::IncomingCall(ServiceCore* core, const grpc::ServerContextBase& con
     caller_ = *std::move(caller);
     robot_ = caller_.identity;
   }
+  turn_key_ = caller_.identity.empty() ? context.peer() : caller_.identity;
   static std::atomic<std::int64_t> calls = 0;
   rate_key_ = robot_.empty() ? absl::StrCat("call/", ++calls) : robot_;
 }

@@ -32,6 +32,8 @@ class IncomingCall {
   const absl::Status& identified() const { return identified_; }
   // Empty without credentials.
   const std::string& identity() const { return caller_.identity; }
+  // Who takes turns with others: the identity, or without credentials the connection.
+  const std::string& turn_key() const { return turn_key_; }
   // Checks again: UNAUTHENTICATED also if the token, certificate or role was withdrawn since.
   absl::Status CheckIdentity() const;
   // Counts the call as an open stream. RESOURCE_EXHAUSTED.
@@ -65,6 +67,7 @@ class IncomingCall {
   Credentials credentials_;
   absl::Status identified_;
   Caller caller_;
+  std::string turn_key_;
   // The robot whose limits apply: the caller, or, without credentials, the robot named.
   std::string robot_;
   // The key of the robot's rate limit: robot_. A call that names no robot has a key that no other

@@ -39,6 +39,14 @@ absl::Status ParseRequest(grpc::ByteBuffer* bytes, google::protobuf::Message* re
   return request->ParseFromZeroCopyStream(&reader) ? absl::OkStatus() : UndecodableError(*request);
 }
 
+absl::Status RequestMemoryError(std::int64_t most) {
+  return WithReason(absl::ResourceExhaustedError(
+                        absl::StrCat("the requests that wait, yours or all together, need more "
+                                     "than their part of memory-quota, ",
+                                     most, " bytes")),
+                    {"REQUEST_MEMORY", {}});
+}
+
 absl::Status RequestTimeError() {
   return WithReason(
       absl::DeadlineExceededError(absl::StrCat("no request came for ", kRequestTime.count(), " s")),

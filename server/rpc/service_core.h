@@ -18,6 +18,7 @@
 #include "server/admission/rate_limiter.h"
 #include "server/admission/stream_limiter.h"
 #include "server/base/memory_budget.h"
+#include "server/base/request_memory.h"
 #include "server/base/worker_pool.h"
 #include "server/catalog/fleet_index.h"
 #include "server/catalog/journey_catalog.h"
@@ -83,11 +84,13 @@ struct ServiceCore {
         rates(core_options.limits.max_robot_rate),
         slots(core_options.limits.max_streams, core_options.limits.max_robot_streams),
         queue(store.get(), QueueOptions(metrics.get())),
-        pool(core_options.workers) {}
+        pool(core_options.workers),
+        large_images(core_options.workers) {}
   ~ServiceCore() {
     archives.Stop();
     store_writes.Stop();
     store_reads.Stop();
+    large_images.Stop();
     pool.Stop();
   }
   ServiceCore(const ServiceCore&) = delete;
@@ -122,6 +125,9 @@ struct ServiceCore {
   // Memory of the answers of unary calls that are not sent yet.
   const std::shared_ptr<MemoryBudget> answers =
       std::make_shared<MemoryBudget>(options.limits.memory_quota);
+  // Memory of the large requests that wait for a worker.
+  const std::shared_ptr<RequestMemory> requests =
+      std::make_shared<RequestMemory>(options.limits.memory_quota);
   storage::CommitQueue queue;
   StreamRegistry streams;
   // Runs long tasks, one at a time, so that robots do not wait for them.
@@ -134,6 +140,9 @@ struct ServiceCore {
   WorkerPool store_reads{kStoreReaders};
   // For work that computes.
   WorkerPool pool;
+  // For images above a megapixel, which take up to seconds. The system shares the processor between
+  // these threads and the pool's, so that robots with usual images do not wait for a large one.
+  WorkerPool large_images;
 };
 
 }  // namespace homing::server

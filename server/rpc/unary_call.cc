@@ -15,8 +15,8 @@ UnaryCall::UnaryCall(ServiceCore* core, grpc::CallbackServerContext* context, Rp
       answers_(core->answers),
       share_(answers_.get()),
       incoming_(core, *context, rpc),
+      request_share_(core->requests, incoming_.turn_key()),
       watch_(core, context),
-      peer_(context->peer()),
       handler_(std::move(handler)),
       opened_(core->options.clock()),
       request_(std::move(request)),
@@ -24,9 +24,7 @@ UnaryCall::UnaryCall(ServiceCore* core, grpc::CallbackServerContext* context, Rp
 
 absl::Status UnaryCall::Admit() {
   HOMING_RETURN_IF_ERROR(incoming_.identified());
-  const std::string& caller = incoming_.identity();
-  // Without credentials each connection counts by itself.
-  auto slot = core_->unread.Enter(caller.empty() ? peer_ : caller);
+  auto slot = core_->unread.Enter(incoming_.turn_key());
   if (!slot.ok()) {
     return WithReason(
         absl::ResourceExhaustedError("too many calls wait for their requests to arrive"),
@@ -58,8 +56,9 @@ void UnaryCall::Tick() {
 void UnaryCall::OnReadDone(bool ok) {
   if (!unread_.exchange(false)) return;
   unread_slot_.Leave();
-  const absl::Status parsed = ParseOnlyRequest(ok, watch_, &bytes_, request_.get());
+  absl::Status parsed = ParseOnlyRequest(ok, watch_, &bytes_, request_.get());
   bytes_.Clear();
+  if (parsed.ok()) parsed = HoldRequest();
   if (parsed.ok()) {
     handler_(shared_from_this(), *request_, response_.get());
   } else {
@@ -80,11 +79,23 @@ absl::Status UnaryCall::Hold() {
                     {"ANSWER_MEMORY", {}});
 }
 
+absl::Status UnaryCall::HoldRequest() {
+  // Of smaller ones the pools bound the number.
+  constexpr std::size_t kLarge = 64 << 10;
+  const std::size_t bytes = request_->SpaceUsedLong();
+  if (bytes <= kLarge || request_share_.TrySet(static_cast<std::int64_t>(bytes))) {
+    return absl::OkStatus();
+  }
+  return RequestMemoryError(core_->requests->most());
+}
+
 void UnaryCall::End(const absl::Status& status) {
   const grpc::Status ended = incoming_.Finish(status.ok() ? Hold() : status);
   bool owned = false;
   if (ended.ok()) grpc::SerializationTraits<Message>::Serialize(*response_, &bytes_, &owned);
   response_.reset();
+  request_.reset();
+  request_share_.TrySet(0);
   if (ended.ok()) {
     StartWriteAndFinish(&bytes_, grpc::WriteOptions(), ended);
   } else {

@@ -59,7 +59,7 @@ class UnaryCall final : public grpc::ServerBidiReactor<grpc::ByteBuffer, grpc::B
         return work();
       }));
     };
-    if (!pool->TryRun(std::move(task))) End(BusyError());
+    if (!pool->TryRun(std::move(task), incoming_.turn_key())) End(BusyError());
   }
 
  private:
@@ -69,14 +69,16 @@ class UnaryCall final : public grpc::ServerBidiReactor<grpc::ByteBuffer, grpc::B
   // Counts the answer's memory until gRPC has sent it. RESOURCE_EXHAUSTED: clients have called
   // often and read too little.
   absl::Status Hold();
+  // Counts the request's memory until the call ends. RESOURCE_EXHAUSTED.
+  absl::Status HoldRequest();
 
   ServiceCore* const core_;
   // The call may end after the server's other objects.
   const std::shared_ptr<MemoryBudget> answers_;
   MemoryBudget::Share share_;
   IncomingCall incoming_;
+  RequestMemory::Share request_share_;
   StreamWatch watch_;
-  const std::string peer_;
   const Handler handler_;
   const TimePoint opened_;
   std::unique_ptr<Message> request_;

@@ -64,7 +64,9 @@ class WatchStream : public grpc::ServerBidiReactor<grpc::ByteBuffer, Response>,
     bytes_.Clear();
     unread_ = false;
     const auto self = this->shared_from_this();
-    if (status.ok() && !core_->store_reads.TryRun([self] { self->Begin(); })) status = BusyError();
+    if (status.ok() && !core_->store_reads.TryRun([self] { self->Begin(); }, call_.turn_key())) {
+      status = BusyError();
+    }
     if (!status.ok()) End(status);
   }
 

@@ -106,7 +106,7 @@ absl::Status ImportStream::TakeChunk(const std::string& chunk) {
 void ImportStream::OnReadDone(bool ok) {
   if (!reading_.exchange(false)) return;
   if (!ok) {
-    if (!core_->archives.TryRun([self = self_] { self->Complete(); })) {
+    if (!core_->archives.TryRun([self = self_] { self->Complete(); }, call_.turn_key())) {
       FinishWith(BusyError());
     }
     return;

@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "homing/base/status_macros.h"
+#include "server/service/large_images.h"
 #include "server/service/localize_stream.h"
 #include "server/service/message_conversion.h"
 
@@ -18,6 +19,12 @@ bool IsLong(const v1::MatchLandmarksRequest& request) {
   return request.left().fingerprints().fingerprints_size() +
              request.right().fingerprints().fingerprints_size() >
          kUsualFingerprints;
+}
+
+// Where a query is compared with its journeys.
+WorkerPool* PoolOf(const v1::MatchLandmarksRequest& request, ServiceCore* core) {
+  if (IsLong(request)) return &core->long_work;
+  return HasLargeImage(request) ? &core->large_images : &core->pool;
 }
 
 // One query: its journeys are loaded in one pool, and compared in another.
@@ -64,8 +71,7 @@ void HomingServiceHandler::MatchLandmarks(const UnaryCall::Ptr& call,
       call, request->journey(),
       [search, request](const JourneyFilter& filter) { return search->Load(*request, filter); },
       &core()->store_reads,
-      {[search, response] { return search->Match(response); },
-       IsLong(*request) ? &core()->long_work : &core()->pool});
+      {[search, response] { return search->Match(response); }, PoolOf(*request, core())});
 }
 
 }  // namespace homing::server

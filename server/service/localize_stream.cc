@@ -4,6 +4,7 @@
 
 #include "homing/base/status_macros.h"
 #include "server/base/resource_name.h"
+#include "server/service/large_images.h"
 #include "server/service/message_conversion.h"
 #include "server/service/stream_messages.h"
 
@@ -16,13 +17,14 @@ constexpr std::size_t kMaxMasses = 400;
 
 // The config finds the journeys, and loads the map of a named one. The maps of a wildcard are
 // loaded with the first observation, whose images have the size by which they are chosen.
-WorkerPool* LocalizeStream::StorePoolOf(const v1::LocalizeRequest& request) {
+WorkerPool* LocalizeStream::OtherPoolOf(const v1::LocalizeRequest& request) {
   const bool loads_maps = std::exchange(loads_maps_, false);
   if (request.has_config()) {
     const auto pattern = ParseJourneyPattern(request.config().journey(), "config.journey");
     loads_maps_ = pattern.ok() && pattern->is_pattern();
   }
-  return request.has_config() || loads_maps ? &core()->store_reads : nullptr;
+  if (request.has_config() || loads_maps) return &core()->store_reads;
+  return HasLargeImage(request.observation()) ? &core()->large_images : nullptr;
 }
 
 absl::Status LocalizeStream::Handle(const v1::LocalizeRequest& request) {

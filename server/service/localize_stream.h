@@ -16,7 +16,7 @@ class LocalizeStream final : public BidiStream<v1::LocalizeRequest, v1::Localize
       : BidiStream(core, context, Rpc::kLocalize) {}
 
  protected:
-  WorkerPool* StorePoolOf(const v1::LocalizeRequest& request) override;
+  WorkerPool* OtherPoolOf(const v1::LocalizeRequest& request) override;
   absl::Status Handle(const v1::LocalizeRequest& request) override;
   void HandleDone() override {
     session_.reset();

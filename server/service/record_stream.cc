@@ -4,6 +4,7 @@
 
 #include "homing/base/status_macros.h"
 #include "server/base/resource_name.h"
+#include "server/service/large_images.h"
 #include "server/service/message_conversion.h"
 #include "server/service/stream_messages.h"
 
@@ -16,9 +17,10 @@ constexpr std::int64_t kQuotaEvery = 256;
 }  // namespace
 
 // The config claims the journey; a check of the quota lists the robot's journeys.
-WorkerPool* RecordStream::StorePoolOf(const v1::RecordJourneyRequest& request) {
+WorkerPool* RecordStream::OtherPoolOf(const v1::RecordJourneyRequest& request) {
   const bool is_checked = request.has_observation() && ++read_ % kQuotaEvery == 0;
-  return request.has_config() || is_checked ? &core()->store_writes : nullptr;
+  if (request.has_config() || is_checked) return &core()->store_writes;
+  return HasLargeImage(request.observation()) ? &core()->large_images : nullptr;
 }
 
 absl::Status RecordStream::Handle(const v1::RecordJourneyRequest& request) {

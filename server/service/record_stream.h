@@ -17,7 +17,7 @@ class RecordStream final : public BidiStream<v1::RecordJourneyRequest, v1::Recor
       : BidiStream(core, context, Rpc::kRecordJourney) {}
 
  protected:
-  WorkerPool* StorePoolOf(const v1::RecordJourneyRequest& request) override;
+  WorkerPool* OtherPoolOf(const v1::RecordJourneyRequest& request) override;
   absl::Status Handle(const v1::RecordJourneyRequest& request) override;
   // Ends the stream after the pending appends are committed.
   void EndInTurn(const absl::Status& status) override;

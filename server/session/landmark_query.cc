@@ -41,10 +41,10 @@ absl::StatusOr<QueryRobot> MeasureRobot(const LandmarkQuery& query, const Decode
   robot.travel = query.travel;
   for (std::size_t side = 0; side < query.views.size(); ++side) {
     if (const auto* pair = std::get_if<FramePair>(&query.views[side])) {
-      const auto image = DecodeGray(pair->first, limits);
-      HOMING_RETURN_IF_ERROR(Renamed(image.status(), "frame", FramePath(side, "first")));
-      robot.widths[side] = image->cols;
-      robot.heights[side] = image->rows;
+      const auto size = MeasureGray(pair->first, limits);
+      HOMING_RETURN_IF_ERROR(Renamed(size.status(), "frame", FramePath(side, "first")));
+      robot.widths[side] = size->width;
+      robot.heights[side] = size->height;
     } else if (const auto* flow = std::get_if<FlowField>(&query.views[side])) {
       robot.widths[side] = flow->width;
       robot.heights[side] = flow->height;
@@ -64,7 +64,9 @@ absl::StatusOr<ObservedFlow> FlowOf(const QueryView& view, std::size_t side,
   Observation observation;
   if (const auto* pair = std::get_if<FramePair>(&view)) {
     observation.views[side] = pair->first;
-    HOMING_RETURN_IF_ERROR(tracker.Compute(observation).status());
+    HOMING_RETURN_IF_ERROR(Renamed(tracker.Compute(observation).status(),
+                                   absl::StrCat(kCameraNames[side], ".frame"),
+                                   FramePath(side, "first")));
     observation.views[side] = pair->second;
     observation.sequence = 1;
     auto flow_of_pair = tracker.Compute(observation);

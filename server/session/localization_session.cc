@@ -24,16 +24,16 @@ constexpr double kMostPathOffset = 1000;
 // Interval at which the caller's right to the journeys is checked again.
 constexpr std::chrono::seconds kRightsEvery{1};
 
-// Sets the size of one camera's image. Decodes the frame, since a compressed one may give no size.
+// Sets the size of one camera's image.
 absl::Status MeasureView(const CameraView& view, const DecodeLimits& limits, int* width,
                          int* height) {
   if (const auto* flow = std::get_if<FlowField>(&view)) {
     *width = flow->width;
     *height = flow->height;
   } else if (const auto* frame = std::get_if<Frame>(&view)) {
-    HOMING_ASSIGN_OR_RETURN(const cv::Mat image, DecodeGray(*frame, limits));
-    *width = image.cols;
-    *height = image.rows;
+    HOMING_ASSIGN_OR_RETURN(const cv::Size size, MeasureGray(*frame, limits));
+    *width = size.width;
+    *height = size.height;
   }
   return absl::OkStatus();
 }

@@ -264,7 +264,9 @@ TEST_F(HttpLimitsTest, WhatFollowsARequestThatIsNotUnderstoodIsNoRequest) {
        {"GET /healthz HTTP/1.1\r\nX: " + std::string(9000, 'x') + "\r\n\r\n",
         std::string("nonsense\r\n\r\n"),
         std::string("POST /api/v1/login HTTP/1.1\r\nHost: localhost\r\nContent-Length: 3\r\n"
-                    "Transfer-Encoding: chunked\r\n\r\n0\r\n\r\n")}) {
+                    "Transfer-Encoding: chunked\r\n\r\n0\r\n\r\n"),
+        std::string("POST /api/v1/login HTTP/1.1\r\nHost: localhost\r\nContent-Length: 3\r\n"
+                    "Content-Length: 60\r\n\r\nabc")}) {
     RawClient client(server_->metrics_address(), "127.0.0.1");
     ASSERT_TRUE(client.Send(first + kHealth));
     std::string answers;

@@ -3,6 +3,13 @@
 #include <gtest/gtest.h>
 #include <httplib.h>
 
+#include <atomic>
+#include <chrono>
+#include <future>
+#include <string>
+#include <thread>
+#include <vector>
+
 #include "server/access/token_book.h"
 #include "tests/server/server_fixture.h"
 #include "tests/support/status_matchers.h"
@@ -50,6 +57,45 @@ TEST_F(LoginTest, OneTokenDoesNotTakeAllSessions) {
   EXPECT_EQ(browser.Post("/api/v1/login", R"({"token":"secret-o"})", "")->status, 200);
   EXPECT_EQ(browser.Get("/api/v1/session", {{"Cookie", oldest}})->status, 401);
   EXPECT_EQ(browser.Get("/api/v1/session", {{"Cookie", newest}})->status, 200);
+}
+
+TEST_F(LoginTest, OneTokenDoesNotTakeAllEventStreams) {
+  StartGuarded();
+  const auto cookie_of = [&](const char* token) {
+    const std::string body = std::string(R"({"token":")") + token + "\"}";
+    const std::string cookie =
+        Browser().Post("/api/v1/login", body, "")->get_header_value("Set-Cookie");
+    return cookie.substr(0, cookie.find(';'));
+  };
+  std::atomic<int> open = 0;
+  std::atomic<bool> done = false;
+  // Reads until `done`; gives the status.
+  const auto watch = [&](const std::string& cookie) {
+    int status = 0;
+    Browser().Get(
+        "/events", {{"Cookie", cookie}},
+        [&](const httplib::Response& response) {
+          status = response.status;
+          open += status == 200 ? 1 : 0;
+          return true;
+        },
+        [&](const char*, std::size_t) {
+          while (!done) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+          return false;
+        });
+    return status;
+  };
+  const std::string robot = cookie_of("secret-r");
+  std::vector<std::future<int>> feeds;
+  for (int i = 0; i < 8; ++i) feeds.push_back(std::async(std::launch::async, watch, robot));
+  while (open < 8) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  EXPECT_EQ(Browser().Get("/events", {{"Cookie", robot}})->status, 503);
+  feeds.push_back(std::async(std::launch::async, watch, cookie_of("secret-o")));
+  while (open < 9 &&
+         feeds.back().wait_for(std::chrono::milliseconds(1)) != std::future_status::ready) {
+  }
+  done = true;
+  for (auto& feed : feeds) EXPECT_EQ(feed.get(), 200);
 }
 
 TEST_F(LoginTest, GuessesOfAnAddressDoNotLockOutItsOthers) {

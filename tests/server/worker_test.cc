@@ -1,8 +1,11 @@
 // Long work on a server with one worker: others do not wait for it.
+#include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <functional>
 #include <future>
 #include <thread>
+#include <vector>
 
 #include "homing/image/frame.h"
 #include "proto/wire/observation_conversion.h"
@@ -28,6 +31,8 @@ class WorkerTest : public ServerTest {
     call();
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   }
+  // A query of two frames whose comparison keeps a worker busy.
+  v1::MatchLandmarksRequest CostlyQuery(int side_px);
   // A query of one fingerprint: the one worker answers it as soon as it is free.
   void CallWorker() {
     grpc::ClientContext context;
@@ -48,15 +53,14 @@ std::string NoiseOf(std::uint32_t seed, int width, int height) {
   return bytes;
 }
 
-TEST_F(WorkerTest, AFramePairOfAClientThatDoesNotWaitFreesItsWorker) {
-  constexpr int kLong = 1024;
-  const std::string first = NoiseOf(1, kLong, kLong);
-  const std::string second = NoiseOf(2, kLong, kLong);
+v1::MatchLandmarksRequest WorkerTest::CostlyQuery(int side_px) {
+  const std::string first = NoiseOf(1, side_px, side_px);
+  const std::string second = NoiseOf(2, side_px, side_px);
   v1::CreateJourneyRequest journey;
   journey.set_parent("robots/r");
   journey.set_journey_id("costly");
   v1::FlowSettings* flow = journey.mutable_journey()->mutable_settings()->mutable_flow();
-  flow->set_working_width_px(2 * kLong);
+  flow->set_working_width_px(std::min(2 * side_px, 2048));
   flow->set_window_px(63);
   flow->set_cell_px(16);
   flow->set_min_eigenvalue(1e-6);
@@ -67,13 +71,66 @@ TEST_F(WorkerTest, AFramePairOfAClientThatDoesNotWaitFreesItsWorker) {
   flow->set_max_forward_backward_px(5);
   v1::Journey made;
   grpc::ClientContext creating;
-  ASSERT_THAT(journeys_->CreateJourney(&creating, journey, &made), IsGrpcOk());
+  EXPECT_THAT(journeys_->CreateJourney(&creating, journey, &made), IsGrpcOk());
   v1::MatchLandmarksRequest request;
   request.set_journey(made.name());
   request.set_travel(v1::TRAVEL_SAME);
   v1::FramePair* pair = request.mutable_left()->mutable_frames();
-  *pair->mutable_first() = wire::ToProto(test::GrayFrame(first, kLong, kLong));
-  *pair->mutable_second() = wire::ToProto(test::GrayFrame(second, kLong, kLong));
+  *pair->mutable_first() = wire::ToProto(test::GrayFrame(first, side_px, side_px));
+  *pair->mutable_second() = wire::ToProto(test::GrayFrame(second, side_px, side_px));
+  return request;
+}
+
+TEST_F(WorkerTest, ACallerDoesNotWaitForAllCallsOfAnother) {
+  constexpr std::size_t kCalls = 20;
+  const v1::MatchLandmarksRequest request = CostlyQuery(400);
+  grpc::ChannelArguments own_connection;
+  own_connection.SetInt(GRPC_ARG_USE_LOCAL_SUBCHANNEL_POOL, 1);
+  const auto stub = v1::HomingService::NewStub(grpc::CreateCustomChannel(
+      server_->address(), grpc::InsecureChannelCredentials(), own_connection));
+  std::atomic<std::size_t> ended = 0;
+  std::vector<std::future<void>> calls;
+  for (std::size_t i = 0; i < kCalls; ++i) {
+    calls.push_back(std::async(std::launch::async, [&] {
+      grpc::ClientContext context;
+      v1::MatchLandmarksResponse response;
+      EXPECT_THAT(stub->MatchLandmarks(&context, request, &response), IsGrpcOk());
+      ++ended;
+    }));
+  }
+  // Now the others wait.
+  while (ended < 2) std::this_thread::yield();
+  CallWorker();
+  EXPECT_LT(ended, kCalls - 5);
+  for (auto& call : calls) call.wait();
+}
+
+TEST_F(WorkerTest, TheRequestsOfACallerThatWaitHaveAPartOfTheMemory) {
+  options_.limits.memory_quota = 40 << 20;
+  StartServer();
+  // Four of 2 MiB fit into the caller's quarter.
+  const v1::MatchLandmarksRequest request = CostlyQuery(1024);
+  std::vector<std::future<grpc::Status>> calls;
+  for (int i = 0; i < 10; ++i) {
+    calls.push_back(std::async(std::launch::async, [&] {
+      grpc::ClientContext context;
+      v1::MatchLandmarksResponse response;
+      return homing_->MatchLandmarks(&context, request, &response);
+    }));
+  }
+  int taken = 0;
+  for (auto& call : calls) {
+    const grpc::Status status = call.get();
+    taken += status.ok() ? 1 : 0;
+    EXPECT_EQ(ReasonOf(status), status.ok() ? "" : "REQUEST_MEMORY");
+  }
+  EXPECT_GE(taken, 1);
+  EXPECT_LT(taken, 10);
+  CallWorker();
+}
+
+TEST_F(WorkerTest, AFramePairOfAClientThatDoesNotWaitFreesItsWorker) {
+  const v1::MatchLandmarksRequest request = CostlyQuery(1024);
   const auto match = [&](std::chrono::milliseconds timeout) {
     grpc::ClientContext context;
     context.set_deadline(std::chrono::system_clock::now() + timeout);
@@ -85,6 +142,19 @@ TEST_F(WorkerTest, AFramePairOfAClientThatDoesNotWaitFreesItsWorker) {
   EXPECT_THAT(match(part), GrpcStatusIs(grpc::StatusCode::DEADLINE_EXCEEDED, HasSubstr("")));
   // The one worker is free.
   EXPECT_LT(SecondsOf([&] { CallWorker(); }), 0.4 * whole);
+}
+
+TEST_F(WorkerTest, LargeImagesHoldUpNobodyWithUsualOnes) {
+  const v1::MatchLandmarksRequest request = CostlyQuery(1200);
+  const auto match = [&] {
+    grpc::ClientContext context;
+    v1::MatchLandmarksResponse response;
+    EXPECT_THAT(homing_->MatchLandmarks(&context, request, &response), IsGrpcOk());
+  };
+  const double whole = SecondsOf(match);
+  const auto running = std::async(std::launch::async, match);
+  std::this_thread::sleep_for(std::chrono::duration<double>(0.1 * whole));
+  EXPECT_LT(SecondsOf([&] { CallWorker(); }), 0.3 * whole);
 }
 
 TEST_F(WorkerTest, TheAnalysisOfARouteThatRepeatsItselfHoldsUpNobody) {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "homing/image/frame.h"
+#include "homing/image/header_pixels.h"
 #include "tests/homing/image/encoded_pictures.h"
 #include "tests/support/status_matchers.h"
 
@@ -110,6 +111,33 @@ TEST(OrientationTest, DecodingTurnsTheImage) {
   ASSERT_THAT(gray, IsOk());
   EXPECT_GT(gray->at<unsigned char>(0, 0), 200);
   EXPECT_LT(gray->at<unsigned char>(31, 47), 20);
+}
+
+TEST(OrientationTest, TheSizeOfTheTurnedImageIsInTheHeader) {
+  const std::string file = WithExif(EncodeJpeg(Slope(), 100), Tiff(6, false));
+  // Without most of the pixels.
+  const std::string cut = file.substr(0, file.size() - 200);
+  EXPECT_FALSE(DecodeGray({FrameEncoding::kJpeg, 0, 0, cut}).ok());
+  EXPECT_EQ(MeasureGray({FrameEncoding::kJpeg, 0, 0, cut}).value(), cv::Size(32, 48));
+  const std::string png = EncodePng(Slope(), {}).substr(0, 50);
+  EXPECT_FALSE(DecodeGray({FrameEncoding::kPng, 0, 0, png}).ok());
+  EXPECT_EQ(MeasureGray({FrameEncoding::kPng, 0, 0, png}).value(), cv::Size(48, 32));
+  EXPECT_FALSE(MeasureGray({FrameEncoding::kPng, 49, 0, png}).ok());
+}
+
+TEST(OrientationTest, PixelsAreCountedByTheHeader) {
+  const std::string jpeg = WithExif(EncodeJpeg(Slope()), Tiff(6, false));
+  const std::string png = EncodePng(Slope(), {});
+  EXPECT_EQ(HeaderPixels({FrameEncoding::kGray8, 8192, 8192, ""}), 8192 * 8192);
+  for (const auto& [encoding, file] :
+       {std::pair(FrameEncoding::kJpeg, jpeg), std::pair(FrameEncoding::kPng, png)}) {
+    EXPECT_EQ(HeaderPixels({encoding, 0, 0, file}), 48 * 32);
+    for (std::size_t size = 0; size < file.size(); ++size) {
+      const auto pixels = HeaderPixels({encoding, 0, 0, file.substr(0, size)});
+      EXPECT_TRUE(!pixels || *pixels == 48 * 32) << size;
+    }
+  }
+  EXPECT_EQ(HeaderPixels({FrameEncoding::kJpeg, 0, 0, "\xFF\xD8nothing"}), std::nullopt);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <atomic>
 #include <future>
 #include <memory>
+#include <string>
 #include <thread>
 #include <vector>
 
@@ -36,6 +37,62 @@ TEST(WorkerPoolTest, RefusesAboveItsBound) {
   EXPECT_TRUE(pool.TryRun([] {}));
   EXPECT_FALSE(pool.TryRun([] {}));
   release.set_value();
+}
+
+// Keeps the only thread of `pool` busy until Release.
+class Blocker {
+ public:
+  explicit Blocker(WorkerPool* pool) {
+    pool->Run([this, released = release_.get_future().share()] {
+      started_.set_value();
+      released.wait();
+    });
+    started_.get_future().wait();
+  }
+  void Release() { release_.set_value(); }
+
+ private:
+  std::promise<void> release_;
+  std::promise<void> started_;
+};
+
+TEST(WorkerPoolTest, CallersTakeTurns) {
+  std::string order;
+  {
+    WorkerPool pool(1);
+    Blocker blocker(&pool);
+    for (const char* task : {"a1", "a2", "a3", "b1", "b2", "c1"}) {
+      pool.Run([&order, task] { order += task; }, std::string(1, task[0]));
+    }
+    blocker.Release();
+  }
+  EXPECT_EQ(order, "a1b1c1a2b2a3");
+}
+
+TEST(WorkerPoolTest, ACallerThatFillsItDoesNotShutOthersOut) {
+  WorkerPool pool(1, 2);
+  Blocker blocker(&pool);
+  EXPECT_TRUE(pool.TryRun([] {}, "greedy"));
+  EXPECT_TRUE(pool.TryRun([] {}, "greedy"));
+  EXPECT_FALSE(pool.TryRun([] {}, "greedy"));
+  EXPECT_TRUE(pool.TryRun([] {}, "other"));
+  EXPECT_FALSE(pool.TryRun([] {}, "other"));
+  blocker.Release();
+}
+
+TEST(StrandTest, TheStreamsOfACallerTakeOneTurnTogether) {
+  std::string order;
+  {
+    WorkerPool pool(1);
+    Blocker blocker(&pool);
+    std::vector<std::shared_ptr<Strand>> strands;
+    for (const char* caller : {"a", "a", "a", "b"}) {
+      strands.push_back(std::make_shared<Strand>(&pool, caller));
+      strands.back()->Post([&order, caller] { order += caller; });
+    }
+    blocker.Release();
+  }
+  EXPECT_EQ(order, "abaa");
 }
 
 TEST(StrandTest, RunsOnTheCallersThreadWhenNothingElseRunsOrWaits) {
