@@ -15,6 +15,7 @@ namespace homing::client {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 class ImageFolderTest : public ::testing::Test {
  protected:
@@ -103,6 +104,17 @@ TEST_F(ImageFolderTest, SaysWhichFileIsNoImage) {
   Write("broken.pgm", "nothing like an image");
   EXPECT_THAT(ReadImage(Path("broken.pgm")),
               StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("broken.pgm")));
+}
+
+TEST_F(ImageFolderTest, AFileWithoutAnEndIsRefused) {
+  std::filesystem::create_symlink("/dev/zero", Path("mask.png"));
+  EXPECT_THAT(ReadImage(Path("mask.png")),
+              StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("more than")));
+}
+
+TEST_F(ImageFolderTest, AFolderIsNoImage) {
+  std::filesystem::create_directory(Path("a.png"));
+  EXPECT_THAT(ReadImage(Path("a.png")), Not(IsOk()));
 }
 
 #ifdef HOMING_OPENCV_READERS
