@@ -62,6 +62,9 @@ class Drive {
     const double way = options_.pilot.turn_round ? on_path.heading + kTurn / 2 : on_path.heading;
     point.heading = Wrapped(point.pose.heading - way);
     point.state = pilot_.state();
+    point.believed_left_m = pilot_.offset_m();
+    point.believed_heading = pilot_.heading();
+    point.believed_home_m = pilot_.remaining_m();
     return point;
   }
 

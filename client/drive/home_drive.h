@@ -57,6 +57,10 @@ struct DrivenPoint {
   double heading = 0;
   Pilot::State state = Pilot::State::kDriving;
   PilotCommand command;
+  // The pilot's belief: metres left of the path, and heading relative to it, rad; m from home.
+  double believed_left_m = 0;
+  double believed_heading = 0;
+  double believed_home_m = 0;
   // The answer to the observation made here, if one was sent.
   std::optional<PilotAnswer> answer;
 };

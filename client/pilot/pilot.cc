@@ -34,12 +34,19 @@ constexpr double kJumpPerM = 0.1;
 constexpr double kJumpConfirmedM = 4;
 // An answer is no better than its tolerance: the pilot accepts its place over this distance, m.
 constexpr double kPlaceM = 2;
-// A search first sweeps this far back and twice as far ahead, then further, m. It swings the
-// heading by kSweepHeading, rad, over kSweepPeriodM, m.
+// A heading that is wrong by some angle takes the robot beside the path by the angle times the way.
+// The pilot starts within 10 degrees: kFirstPatienceM take it 0.7 m. After d m of the way on which
+// it was sure, offsets within 0.3 m show the heading to 0.3 m / d: kPatiencePerM * d take it 0.6 m.
+constexpr double kFirstPatienceM = 4;
+constexpr double kPatiencePerM = 2;
+// A search first goes back to where the pilot was last sure, but no further than kMostBackM. Then
+// it sweeps kSweepM back and twice as far ahead, then further, at most kMostSweepM: blind, it would
+// leave the path. It swings the heading by kSweepHeading, rad, over kSweepPeriodM. Metres.
+constexpr double kMostBackM = 8;
 constexpr double kSweepM = 1.5;
-constexpr double kMostSweepM = 6;
+constexpr double kMostSweepM = 3;
 constexpr double kSweepHeading = 0.2;
-constexpr double kSweepPeriodM = 1.5;
+constexpr double kSweepPeriodM = 6;
 // A robot that is lost again before it was sure for this distance, m, begins its next search with a
 // longer sweep.
 constexpr double kSureM = 5;
@@ -47,7 +54,9 @@ constexpr double kSureM = 5;
 }  // namespace
 
 Pilot::Pilot(const PilotOptions& options)
-    : options_(options), state_(options.turn_round ? State::kTurningRound : State::kDriving) {
+    : options_(options),
+      state_(options.turn_round ? State::kTurningRound : State::kDriving),
+      patience_left_m_(std::min(kFirstPatienceM, options.patience_m)) {
   known_.remaining_m = options.route_m;
   if (options.turn_round) known_.heading = -std::numbers::pi;
   now_ = known_;
@@ -180,16 +189,21 @@ PilotCommand Pilot::Drive(double now_s) {
   const double driven = std::abs(motion_.speed_mps) * dt;
   unsure_m_ = is_sure_ ? 0 : unsure_m_ + driven;
   sure_m_ += is_sure_ ? driven : 0;
+  if (state_ != State::kTurningRound) {
+    patience_left_m_ = std::clamp(patience_left_m_ + (is_sure_ ? kPatiencePerM : -1) * driven, 0.0,
+                                  options_.patience_m);
+  }
+  const bool is_patient = is_sure_ || patience_left_m_ > 0;
   PilotCommand command;
   if (state_ == State::kTurningRound) {
     command = TurnRound();
   } else if (state_ != State::kHome) {
     const bool is_late = now_s - arrival_time_s_ > options_.stop_after_s;
-    if (unsure_m_ <= options_.patience_m && now_.remaining_m <= options_.stop_before_m) {
+    if (is_patient && now_.remaining_m <= options_.stop_before_m) {
       state_ = State::kHome;
     } else if (is_late) {
       state_ = State::kWaiting;
-    } else if (unsure_m_ > options_.patience_m) {
+    } else if (!is_patient) {
       if (state_ != State::kSearching) BeginSearch();
       state_ = State::kSearching;
       searched_m_ += driven;
@@ -243,17 +257,21 @@ void Pilot::BeginSearch() {
   sweep_m_ = sure_m_ < kSureM ? std::clamp(2 * sweep_m_, kSweepM, kMostSweepM) : kSweepM;
   sure_m_ = 0;
   searched_m_ = 0;
+  back_m_ = std::min(unsure_m_, kMostBackM);
 }
 
-// The ends lie two sweeps ahead of the start, one behind, four ahead, two behind, eight ahead.
+// After the way back, the ends lie two sweeps ahead of the start, one behind, four ahead, and so
+// on.
 bool Pilot::SweepsBack() const {
+  if (searched_m_ < back_m_) return true;
   double sweep = sweep_m_;
-  double leg = 2 * sweep;
+  double leg = back_m_ + 2 * sweep;
   bool is_back = false;
-  for (double left = searched_m_; left >= leg; is_back = !is_back) {
+  for (double left = searched_m_ - back_m_; left >= leg; is_back = !is_back) {
     left -= leg;
-    leg = is_back ? 5 * sweep : 3 * sweep;
-    sweep *= is_back ? 2 : 1;
+    const double behind = sweep;
+    if (is_back) sweep = std::min(2 * sweep, kMostSweepM);
+    leg = behind + 2 * sweep;
   }
   return is_back;
 }

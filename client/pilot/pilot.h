@@ -62,8 +62,8 @@ struct PilotOptions {
   // Speeds while unsure and while searching, as fractions of the greatest speed.
   double unsure_speed = 0.5;
   double search_speed = 0.3;
-  // Metres driven by the commands and the turns while unsure, after which the pilot stops and
-  // searches.
+  // Most metres driven by the commands and the turns while unsure, after which the pilot stops and
+  // searches; fewer soon after the start, where the heading is not known as well.
   double patience_m = 25;
   // Time without an answer after which the pilot slows down, and after which it stops, s.
   double slow_after_s = 0.6;
@@ -144,9 +144,12 @@ class Pilot {
   // first of them, and how much of the way was left then, m.
   std::optional<double> elsewhere_ahead_m_;
   double elsewhere_from_m_ = 0;
-  // Driven since the pilot was last sure, m.
+  // Driven since the pilot was last sure, and how much further it may drive unsure, m.
   double unsure_m_ = 0;
+  double patience_left_m_;
   double searched_m_ = 0;
+  // This search first goes back so far, m.
+  double back_m_ = 0;
   // Driven while sure since the last search began, m.
   double sure_m_ = 0;
   // First sweep of this search, m.

@@ -129,10 +129,15 @@ void Localizer::ReportPose(std::span<const JourneyRef> journeys, const ObservedF
   };
   if (result.motion == Motion::kTurning) {
     result.turn = TurnOnSpot(flow, options_.cameras);
-    if (result.turn) path_.Turn(*result.turn);
-    // Before the robot has driven, its heading is not known: the first report after that includes
-    // these turns.
-    reported_heading_ = path_.is_started() ? reported_heading_ + result.turn.value_or(0) : 0;
+    if (result.turn) {
+      path_.Turn(*result.turn);
+      // Before the robot has driven, its heading is not known: the first report after that includes
+      // these turns.
+      reported_heading_ = path_.knows_heading() ? reported_heading_ + *result.turn : 0;
+    } else if (path_.TurnAlone(flow)) {
+      // One camera sees too little.
+      report_heading();
+    }
   } else if (!result.position.step) {
     if (path_.TurnAlone(flow)) report_heading();
     path_.Forget();

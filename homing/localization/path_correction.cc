@@ -141,6 +141,7 @@ void PathPoseFilter::Fit(const Tried& tried) {
   const double most = 0.9 * std::sqrt(offset_variance_ * heading_variance_);
   covariance_ = std::clamp(oh / sum - mean_o * mean_h, -most, most);
   is_started_ = is_started_ || driven_since_lost_ > kDrivenAtStart;
+  knows_heading_ = knows_heading_ || is_started_;
 }
 
 }  // namespace homing

@@ -106,11 +106,12 @@ bool PathPoseFilter::Predict(const JourneyMap& map, std::int64_t step, const Obs
 }
 
 void PathPoseFilter::Turn(double turned) {
-  pose_.heading = is_started_ ? pose_.heading + turned : 0;
+  pose_.heading = knows_heading_ ? pose_.heading + turned : 0;
   heading_variance_ += std::pow(kTurnError * turned, 2);
   // It heads elsewhere: nothing is known of where.
   if (std::abs(pose_.heading) > kMostHeading) {
     Forget();
+    knows_heading_ = false;
     pose_.heading = 0;
   }
 }

@@ -45,7 +45,7 @@ class PathPoseFilter {
   bool has_motion() const { return has_motion_; }
   // A turn on the spot, rad to the left.
   void Turn(double turned);
-  // Resets the belief: the robot is lost.
+  // Resets the belief, except the heading: the robot is lost.
   void Forget();
   // Predicts the heading for one observation of motion that cannot be compared with the map, by the
   // vertical flow. False: it shows no turn.
@@ -60,6 +60,8 @@ class PathPoseFilter {
   const PathPose& pose() const { return pose_; }
   // True if the offset is known too.
   bool is_started() const { return is_started_; }
+  // True once the heading was compared with the map: until then a turn on the spot leaves it 0.
+  bool knows_heading() const { return knows_heading_; }
   // Standard deviations of the belief.
   PathPose deviation() const;
 
@@ -97,6 +99,7 @@ class PathPoseFilter {
   Travel travel_;
   std::array<Camera, 2> cameras_;
   bool is_started_ = false;
+  bool knows_heading_ = false;
   bool has_motion_ = false;
   // Distance driven since the last correction, and since the robot was lost, scene distances.
   double uncorrected_ = 0;

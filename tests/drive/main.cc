@@ -108,12 +108,13 @@ std::string NumberOf(const std::optional<double>& value) {
 }
 
 void Trace(const Fared& fared) {
-  std::cout << "s\troute_m\tleft_m\theading\tstate\tspeed\trate\toutcome\tprobability\thome_m\t"
-               "turn\toffset\n";
+  std::cout << "s\troute_m\tleft_m\theading\tbelieved\tleft_m\theading\tstate\tspeed\trate\t"
+               "outcome\tprobability\thome\tturn\toffset\n";
   for (const auto& point : fared.drive.points) {
-    std::cout << absl::StrFormat("%.1f\t%.2f\t%.2f\t%.3f\t%d\t%.2f\t%.2f", point.time_s,
-                                 point.route_m, point.left_m, point.heading, point.state,
-                                 point.command.speed_mps, point.command.turn_rate);
+    std::cout << absl::StrFormat(
+        "%.1f\t%.2f\t%.2f\t%.3f\t%.2f\t%.2f\t%.3f\t%d\t%.2f\t%.2f", point.time_s, point.route_m,
+        point.left_m, point.heading, point.believed_home_m, point.believed_left_m,
+        point.believed_heading, point.state, point.command.speed_mps, point.command.turn_rate);
     if (point.answer) {
       const auto& answer = *point.answer;
       std::cout << absl::StrFormat("\t%s%s\t%.2f\t%s\t%s\t%s", NameOf(answer.outcome),

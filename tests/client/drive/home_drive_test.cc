@@ -141,5 +141,43 @@ TEST(ToldHeadingTest, IsThatBesideThePathWhereLandmarksHaveGone) {
   }
 }
 
+// The answers of a lost robot that turns on the spot, seen by one camera alone, add up to the
+// turns.
+TEST(ToldHeadingTest, CountsATurnThatOneCameraSeesOnceWhereThePlaceIsUnknown) {
+  const auto out = *PosedCameras::Create(*ParseSimulationSpec("sim:street,length=40,seed=1"));
+  const auto elsewhere = *PosedCameras::Create(*ParseSimulationSpec("sim:street,length=40,seed=5"));
+  ProjectedEyes out_eyes(out.get(), {}), eyes(elsewhere.get(), {.seed = 2});
+  const JourneyMap map = *drive::RecordOut(out->route(), {.length_m = 40}, &out_eyes);
+  drive::LocalLocalizer localizer(&map, Travel::kReturn);
+  Pose pose = elsewhere->route().At(40);
+  pose.heading += kTurn / 2;
+  double heading = 0;
+  bool is_turning = false;
+  std::int64_t frame = 0;
+  const auto see = [&](int count, double driven_m, double turned, bool one_camera) {
+    PilotAnswer::Outcome outcome{};
+    for (int i = 0; i < count; ++i) {
+      pose.heading += turned;
+      pose.position = pose.At(driven_m, 0);
+      Observation seen = eyes.See(pose, 5000 + frame);
+      seen.sequence = frame++;
+      if (one_camera) std::get<FlowField>(seen.views[1]).vectors.clear();
+      const PilotAnswer answer = *localizer.Answer(seen);
+      heading += answer.turn.value_or(0);
+      outcome = answer.outcome;
+      is_turning = answer.is_turning;
+    }
+    return outcome;
+  };
+  ASSERT_EQ(see(150, 0.1, 0, false), PilotAnswer::Outcome::kUnknownPlace);
+  heading = 0;
+  see(60, 0.1, 0.005, false);
+  EXPECT_NEAR(heading, 0.3, 0.05);
+  see(4, 0, 0.06, true);
+  EXPECT_TRUE(is_turning);
+  ASSERT_EQ(see(20, 0.05, 0, false), PilotAnswer::Outcome::kUnknownPlace);
+  EXPECT_NEAR(heading, 0.54, 0.08);
+}
+
 }  // namespace
 }  // namespace homing::client

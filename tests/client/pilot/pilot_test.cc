@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace homing::client {
@@ -127,6 +128,38 @@ TEST_F(PilotTest, IsSlowerWhenUnsureAndSearchesAfterAWhile) {
   EXPECT_TRUE(back);
 }
 
+// Ahead, it would get further and further beside the path.
+TEST_F(PilotTest, ASearchBeginsWhereThePlaceWasLastKnownAndStaysNear) {
+  Pilot pilot = OnItsWay();
+  while (pilot.state() != Pilot::State::kSearching) Step(pilot, Lost());
+  const double begin_m = pilot.remaining_m();
+  EXPECT_LT(Step(pilot, Lost()).speed_mps, 0);
+  double ahead_m = 0, behind_m = 0;
+  for (int i = 0; i < 3000; ++i) {
+    Step(pilot, Lost());
+    ahead_m = std::max(ahead_m, begin_m - pilot.remaining_m());
+    behind_m = std::max(behind_m, pilot.remaining_m() - begin_m);
+  }
+  EXPECT_GT(behind_m, 3);
+  EXPECT_LT(ahead_m, 7);
+}
+
+// The heading is known as well as the way was long over which it was compared with the offsets.
+TEST_F(PilotTest, DrivesOnUnsureForTwiceTheWayOnWhichItWasSure) {
+  std::array<double, 2> unsure_m{};
+  for (std::size_t i = 0; i < 2; ++i) {
+    Pilot pilot = OnItsWay();
+    for (int step = 0; step < (i == 0 ? 1 : 50); ++step) Step(pilot, Sure(pilot.remaining_m()));
+    const double begin_m = pilot.remaining_m();
+    while (pilot.state() != Pilot::State::kSearching) Step(pilot, Lost());
+    unsure_m[i] = begin_m - pilot.remaining_m();
+    sequence_ = 0;
+    now_s_ = 0;
+  }
+  EXPECT_NEAR(unsure_m[0], 4, 0.6);
+  EXPECT_NEAR(unsure_m[1], 4 + 2 * 4.5, 1.5);
+}
+
 // A stretch that has changed may be long: to and fro on it alone the robot would stay for ever.
 TEST_F(PilotTest, ASearchGoesFurtherAndFurther) {
   Pilot pilot = OnItsWay();
@@ -146,7 +179,7 @@ TEST_F(PilotTest, ASearchGoesFurtherAndFurther) {
 // passed.
 TEST_F(PilotTest, DrivesOnByTheTurnsWhereThePlaceIsUnknown) {
   Pilot pilot = OnItsWay();
-  for (int i = 0; i < 20; ++i) Step(pilot);
+  for (int i = 0; i < 100; ++i) Step(pilot, Sure(pilot.remaining_m()));
   const double begin_m = pilot.remaining_m();
   for (int i = 0; i < 300; ++i) EXPECT_GT(Step(pilot, Lost()).speed_mps, 0) << i;
   EXPECT_EQ(pilot.state(), Pilot::State::kDriving);
