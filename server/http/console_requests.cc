@@ -19,7 +19,7 @@ using httplib::Response;
 
 constexpr std::size_t kMaxFeeds = 32;
 // Most feeds of one token: its holder cannot take those of the others.
-constexpr std::ptrdiff_t kMaxFeedsOfToken = 8;
+constexpr std::ptrdiff_t kMaxFeedsOfToken = 16;
 constexpr std::size_t kMaxRobots = 8;
 constexpr std::chrono::seconds kAlive{5};
 constexpr char kCookie[] = "homing_session";

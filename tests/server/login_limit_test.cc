@@ -87,11 +87,11 @@ TEST_F(LoginTest, OneTokenDoesNotTakeAllEventStreams) {
   };
   const std::string robot = cookie_of("secret-r");
   std::vector<std::future<int>> feeds;
-  for (int i = 0; i < 8; ++i) feeds.push_back(std::async(std::launch::async, watch, robot));
-  while (open < 8) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  for (int i = 0; i < 16; ++i) feeds.push_back(std::async(std::launch::async, watch, robot));
+  while (open < 16) std::this_thread::sleep_for(std::chrono::milliseconds(5));
   EXPECT_EQ(Browser().Get("/events", {{"Cookie", robot}})->status, 503);
   feeds.push_back(std::async(std::launch::async, watch, cookie_of("secret-o")));
-  while (open < 9 &&
+  while (open < 17 &&
          feeds.back().wait_for(std::chrono::milliseconds(1)) != std::future_status::ready) {
   }
   done = true;
