@@ -68,7 +68,7 @@ absl::StatusOr<cv::Mat> DecodeGray(const Frame& frame, const DecodeLimits& limit
 }
 
 absl::StatusOr<cv::Size> MeasureGray(const Frame& frame, const DecodeLimits& limits) {
-  const absl::StatusOr<cv::Size> size = Measure(frame, limits);
+  absl::StatusOr<cv::Size> size = Measure(frame, limits);
   if (!size.ok() || !IsFile(frame) || !ExchangesSides(ExifOrientation(frame.data))) return size;
   return cv::Size(size->height, size->width);
 }
