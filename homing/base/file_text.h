@@ -14,7 +14,7 @@
 
 namespace homing {
 
-// Larger is no file of ours: a link to /dev/zero has no end.
+// No file that Homing reads whole is larger; a link to /dev/zero has no end.
 inline constexpr std::size_t kMostFileBytes = std::size_t{1} << 28;
 
 // All bytes of the file. The error's code follows errno (NOT_FOUND, PERMISSION_DENIED and so on);
