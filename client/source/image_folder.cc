@@ -56,6 +56,13 @@ ImageList ListGlob(const std::string& pattern) {
 }
 
 absl::StatusOr<std::string> ReadBytes(const std::string& path) {
+  // A link to /dev/zero has no end.
+  std::error_code error;
+  const auto type = std::filesystem::status(path, error).type();
+  if (type != std::filesystem::file_type::regular &&
+      type != std::filesystem::file_type::not_found) {
+    return absl::InvalidArgumentError(absl::StrCat(path, " is not a regular file"));
+  }
   HOMING_ASSIGN_OR_RETURN(std::string bytes, ReadFile(path));
   if (bytes.empty()) return absl::InvalidArgumentError(absl::StrCat(path, " is empty"));
   return bytes;

@@ -2,10 +2,9 @@
 #ifndef HOMING_BASE_FILE_TEXT_H_
 #define HOMING_BASE_FILE_TEXT_H_
 
-#include <algorithm>
 #include <cerrno>
-#include <cstddef>
 #include <fstream>
+#include <sstream>
 #include <string>
 
 #include "absl/status/status.h"
@@ -14,31 +13,20 @@
 
 namespace homing {
 
-// No file that Homing reads whole is larger; a link to /dev/zero has no end.
-inline constexpr std::size_t kMostFileBytes = std::size_t{1} << 28;
-
 // All bytes of the file. The error's code follows errno (NOT_FOUND, PERMISSION_DENIED and so on);
-// the message names the path and the reason. INVALID_ARGUMENT: more than kMostFileBytes.
+// the message names the path and the reason.
 inline absl::StatusOr<std::string> ReadFile(const std::string& path) {
   errno = 0;
-  std::ifstream file(path, std::ios::binary);
-  std::string bytes;
-  std::size_t read = 0;
-  while (file && read <= kMostFileBytes) {
-    bytes.resize(std::max<std::size_t>(std::size_t{1} << 16, 2 * read));
-    file.read(bytes.data() + read, static_cast<std::streamsize>(bytes.size() - read));
-    read += static_cast<std::size_t>(file.gcount());
+  const std::ifstream file(path, std::ios::binary);
+  std::ostringstream text;
+  if (file) {
+    text << file.rdbuf();
   }
-  if (read > kMostFileBytes) {
-    return absl::InvalidArgumentError(
-        absl::StrCat("cannot read ", path, ": it has more than ", kMostFileBytes, " bytes"));
-  }
-  // The end of a file sets the end bit too.
-  if (!file.eof()) {
+  // An empty file sets the fail bit only.
+  if (!file || text.bad()) {
     return absl::ErrnoToStatus(errno != 0 ? errno : EIO, absl::StrCat("cannot read ", path));
   }
-  bytes.resize(read);
-  return bytes;
+  return text.str();
 }
 
 }  // namespace homing
