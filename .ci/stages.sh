@@ -173,7 +173,7 @@ stage_scale() {
 
 stage_fuzz_build() { cmake --preset fuzz && cmake --build --preset fuzz -j "$jobs"; }
 
-stage_fuzz() { sh tests/fuzz/run.sh 30; }
+stage_fuzz() { sh tests/fuzz/run.sh 15; }
 
 stage_tsan() { HOMING_PRESET=tsan sh tests/run.sh; }
 

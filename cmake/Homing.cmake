@@ -21,7 +21,7 @@ endfunction()
 # Under sanitizers, what waits more than it computes is not optimised: it compiles in half of the time. For the targets
 # of this folder, and of those below, that come after it.
 macro(homing_compile_fast_under_sanitizers)
-  if(HOMING_SANITIZE AND NOT HOMING_FUZZ)
+  if(HOMING_SANITIZE)
     add_compile_options(-O0)
   endif()
 endmacro()
