@@ -174,11 +174,16 @@ check_tree() {
   return $failed
 }
 
+# A scratch tree in which nothing is wrong.
+clean_tree() {
+  rm -rf "$scratch/tree" && mkdir -p "$scratch/tree/homing/image"
+  echo '#include "homing/base/status_macros.h"' >"$scratch/tree/homing/image/frame.h"
+}
+
 # plant FILE TEXT: a clean scratch tree with this one file added must fail the check.
 plant() {
-  rm -rf "$scratch/tree" && mkdir -p "$scratch/tree/homing/image" "$scratch/tree/$(dirname "$1")"
-  echo '#include "homing/base/status_macros.h"' >"$scratch/tree/homing/image/frame.h"
-  (check_tree "$scratch/tree") >/dev/null || { echo "self-test: the clean tree fails"; planted_bad=1; }
+  clean_tree
+  mkdir -p "$scratch/tree/$(dirname "$1")"
   printf '%b\n' "$2" >"$scratch/tree/$1"
   if (check_tree "$scratch/tree") >/dev/null; then
     echo "self-test: not found: $1: $2"
@@ -190,6 +195,8 @@ self_test() {
   scratch=$(mktemp -d) || exit 2
   trap 'rm -rf "$scratch"' EXIT
   planted_bad=0
+  clean_tree
+  (check_tree "$scratch/tree") >/dev/null || { echo "self-test: the clean tree fails"; planted_bad=1; }
   plant homing/image/a.cc '#include "homing/flow/camera.h"'
   plant homing/flow/a.h '#include "homing/journey/journey_map.h"'
   plant homing/base/a.h '#include "homing/image/frame.h"'
