@@ -46,7 +46,7 @@ class WorkerTest : public ServerTest {
 
 // Of noise, in which nothing is found: the most work that two frames can make.
 std::string NoiseOf(std::uint32_t seed, int width, int height) {
-  std::string bytes(static_cast<std::size_t>(width) * height, '\0');
+  std::string bytes(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), '\0');
   for (std::size_t i = 0; i < bytes.size(); ++i) {
     bytes[i] = static_cast<char>(255 * test::Noise(seed, static_cast<std::uint32_t>(i)));
   }

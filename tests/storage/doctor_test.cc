@@ -149,7 +149,7 @@ TEST_F(DoctorTest, ValuesThatNoServerWritesAreDamage) {
 
 TEST_F(DoctorTest, ATruncatedFileIsReportedAndCompleteJourneysAreSaved) {
   const auto size = std::filesystem::file_size(path_);
-  for (const std::uintmax_t share : {9, 7, 5, 3}) {
+  for (const std::uintmax_t share : {9u, 7u, 5u, 3u}) {
     std::filesystem::remove(saved_);
     std::filesystem::resize_file(path_, size * share / 10 / kPage * kPage);
     const auto diagnosis = Salvage(path_, saved_);
@@ -157,7 +157,9 @@ TEST_F(DoctorTest, ATruncatedFileIsReportedAndCompleteJourneysAreSaved) {
     EXPECT_FALSE(IsWhole(*diagnosis)) << share;
     EXPECT_THAT(diagnosis->problems, Not(IsEmpty()));
     auto store = OpenOrDie("sqlite:" + saved_);
-    for (const JourneyRecord& record : *store->ListJourneys("robots/", "", 100)) {
+    const auto listed = store->ListJourneys("robots/", "", 100);
+    ASSERT_THAT(listed, IsOk());
+    for (const JourneyRecord& record : *listed) {
       EXPECT_TRUE(SameMap(*store->LoadMap(record.name), MapOf(OddSettings(), steps_)));
     }
   }

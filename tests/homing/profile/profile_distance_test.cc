@@ -66,7 +66,7 @@ TEST(ProfileDistanceTest, IsTheSameByBlocksAsCellByCell) {
   all[3].cells.fill(0xff);
   all[4].cells.fill(0);
   // Whole blocks, parts of one, and none.
-  for (const std::size_t count : {0, 1, 31, 32, 33, 64, 70}) {
+  for (const std::size_t count : {0u, 1u, 31u, 32u, 33u, 64u, 70u}) {
     const auto stored = std::span(all).first(count);
     for (const double magnification : {0.1, 0.65, 1.0, 1.35}) {
       const CellMask covered = CoveredCells(magnification);
