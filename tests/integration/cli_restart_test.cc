@@ -117,7 +117,7 @@ TEST_P(CliRestartTest, LocalizingResumesWhenTheServerIsKilled) {
 }
 
 // 0.8 km/h at 60 frames a second: the reference is some frames back.
-constexpr char kSlow[] = "sim:street,length=2,seed=9,speed=0.8,fps=60";
+constexpr char kSlow[] = "sim:street,length=1,seed=9,speed=0.8,fps=60";
 
 TEST_P(CliRestartTest, ASlowRobotsServerAndClientAreKilled) {
   const auto record = [this](const std::string& journey) {
