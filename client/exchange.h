@@ -11,6 +11,7 @@
 #include <thread>
 
 #include "absl/status/status.h"
+#include "client/answer_check.h"
 #include "client/resend_buffer.h"
 #include "client/rpc_status.h"
 #include "homing/base/mutex.h"
@@ -29,8 +30,8 @@ class Exchange {
   Exchange(grpc::ClientContext* context, Stream* stream, int window)
       : context_(context), stream_(stream), window_(window) {}
 
-  // Sends to the end of `buffer`; each observation has one answer. UNAVAILABLE: the stream ended
-  // early.
+  // Sends to the end of `buffer`. UNAVAILABLE: the stream ended before that. Whether all were
+  // answered is for the caller to check.
   absl::Status Run(ResendBuffer* buffer, const Fill& fill, const OnAnswer& on_answer) {
     std::thread reader([&] { ReadAnswers(on_answer); });
     WriteAll(buffer, fill);
@@ -42,8 +43,7 @@ class Exchange {
     if (source_failed_ && !status.ok()) return status;
     if (!error_.ok()) return error_;
     if (!status.ok()) return status;
-    if (!ended_ || open_ > 0) return absl::UnavailableError("the server ended the stream early");
-    return absl::OkStatus();
+    return ended_ ? absl::OkStatus() : EndedEarly();
   }
 
  private:

@@ -1,5 +1,6 @@
 #include "client/homing_client.h"
 
+#include "client/answer_check.h"
 #include "client/exchange.h"
 #include "client/rpc_status.h"
 #include "client/unary_call.h"
@@ -44,7 +45,9 @@ absl::Status HomingClient::Attempt(const LocalizingOptions& options, ResendBuffe
     // Keeps the source's number of the frame, which the answer repeats.
     if (!observation.has_frame()) request->mutable_observation()->set_frame(observation.sequence());
   };
-  return exchange.Run(buffer, fill, [&](const v1::LocalizeResponse& response) -> absl::Status {
+  const auto take = [&](const v1::LocalizeResponse& response) -> absl::Status {
+    const std::int64_t sent = buffer->sent() - shift;
+    HOMING_RETURN_IF_ERROR(CheckAnswer(response.sequence(), sent - 1, sent));
     v1::LocalizeResponse answer = response;
     answer.set_sequence(response.sequence() + shift);
     buffer->Acknowledge(answer.sequence() + 1);
@@ -53,7 +56,9 @@ absl::Status HomingClient::Attempt(const LocalizingOptions& options, ResendBuffe
     KeepPrior(answer, options.replay);
     *progress = true;
     return on_answer(answer);
-  });
+  };
+  HOMING_RETURN_IF_ERROR(exchange.Run(buffer, fill, take));
+  return reported_ + 1 < buffer->sent() ? EndedEarly() : absl::OkStatus();
 }
 
 void HomingClient::KeepPrior(const v1::LocalizeResponse& answer, int replay) {

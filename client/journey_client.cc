@@ -138,6 +138,7 @@ absl::StatusOr<v1::AnalyzeAliasingResponse> JourneyClient::AnalyzeAliasing(
 
 absl::Status JourneyClient::Export(const std::string& name, std::ostream& file) {
   grpc::ClientContext context;
+  const std::stop_callback cancel(stop_, [&context] { context.TryCancel(); });
   v1::ExportJourneyRequest request;
   request.set_name(name);
   const auto reader = stub_->ExportJourney(&context, request);
@@ -146,6 +147,7 @@ absl::Status JourneyClient::Export(const std::string& name, std::ostream& file) 
 
 absl::StatusOr<v1::Journey> JourneyClient::Import(const std::string& name, std::istream& file) {
   grpc::ClientContext context;
+  const std::stop_callback cancel(stop_, [&context] { context.TryCancel(); });
   v1::ImportJourneyResponse response;
   const auto writer = stub_->ImportJourney(&context, &response);
   v1::ImportJourneyRequest request;

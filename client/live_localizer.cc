@@ -74,9 +74,10 @@ absl::StatusOr<std::optional<v1::LocalizeResponse>> LiveLocalizer::Poll() {
   return std::make_optional(*std::move(answer));
 }
 
-absl::StatusOr<v1::LocalizeResponse> LiveLocalizer::Wait() {
+absl::StatusOr<v1::LocalizeResponse> LiveLocalizer::Wait(const std::stop_token& stop) {
   std::unique_lock lock(mutex_);
-  changed_.wait(lock, [this] { return !answers_.empty() || ended_; });
+  const bool has = changed_.wait(lock, stop, [this] { return !answers_.empty() || ended_; });
+  if (!has) return absl::CancelledError("stopped");
   return Take();
 }
 

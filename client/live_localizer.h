@@ -28,8 +28,8 @@ class LiveLocalizer {
   std::int64_t Send(v1::Observation observation);
   // The next answer, if one has arrived. After an error there are no more. Errors as Localize.
   absl::StatusOr<std::optional<v1::LocalizeResponse>> Poll();
-  // Waits for the next answer. REQUIRES: an observation is not answered yet.
-  absl::StatusOr<v1::LocalizeResponse> Wait();
+  // Waits for the next answer. CANCELLED: stopped. REQUIRES: an observation is not answered yet.
+  absl::StatusOr<v1::LocalizeResponse> Wait(const std::stop_token& stop = {});
 
  private:
   class Queue;

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "absl/strings/str_cat.h"
+#include "client/answer_check.h"
 #include "client/exchange.h"
 #include "client/rpc_status.h"
 #include "homing/base/status_macros.h"
@@ -41,9 +42,10 @@ absl::Status RecordingClient::Attempt(ResendBuffer* buffer, const OnAnswer& on_a
   const auto fill = [](const v1::Observation& observation, v1::RecordJourneyRequest* request) {
     *request->mutable_observation() = observation;
   };
-  return exchange.Run(buffer, fill, [&](const v1::RecordJourneyResponse& response) {
+  HOMING_RETURN_IF_ERROR(exchange.Run(buffer, fill, [&](const v1::RecordJourneyResponse& response) {
     return Answer(response, buffer, on_answer, progress);
-  });
+  }));
+  return summary_.next_sequence < buffer->sent() ? EndedEarly() : absl::OkStatus();
 }
 
 absl::Status RecordingClient::Begin(Stream* stream, ResendBuffer* buffer) {
@@ -54,9 +56,12 @@ absl::Status RecordingClient::Begin(Stream* stream, ResendBuffer* buffer) {
   v1::RecordJourneyResponse first;
   if (!stream->Read(&first)) {
     absl::Status status = FromGrpc(stream->Finish());
-    return status.ok() ? absl::UnavailableError("the server ended the stream early") : status;
+    return status.ok() ? EndedEarly() : status;
   }
   const std::int64_t durable = first.next_sequence();
+  const std::int64_t resend_from =
+      first.has_resend_from() ? std::min(first.resend_from(), durable) : durable;
+  HOMING_RETURN_IF_ERROR(CheckAnswer(resend_from, durable, buffer->sent()));
   if (attempts_++ == 0) {
     summary_.begun_at = durable;
     if (durable > 0) log_(absl::StrCat("resuming at observation ", durable));
@@ -64,8 +69,6 @@ absl::Status RecordingClient::Begin(Stream* stream, ResendBuffer* buffer) {
     log_(absl::StrCat("link restored, continuing at observation ", durable));
   }
   summary_.next_sequence = durable;
-  const std::int64_t resend_from =
-      first.has_resend_from() ? std::min(first.resend_from(), durable) : durable;
   if (first.has_frame()) observations_->set_last_frame(first.frame());
   buffer->Acknowledge(durable, resend_from);
   return buffer->Rewind(resend_from, durable);
@@ -74,15 +77,19 @@ absl::Status RecordingClient::Begin(Stream* stream, ResendBuffer* buffer) {
 absl::Status RecordingClient::Answer(const v1::RecordJourneyResponse& response,
                                      ResendBuffer* buffer, const OnAnswer& on_answer,
                                      bool* progress) {
+  const std::int64_t sent = buffer->sent();
+  HOMING_RETURN_IF_ERROR(CheckAnswer(response.next_sequence(), sent, sent));
+  HOMING_RETURN_IF_ERROR(CheckAnswer(response.resend_from(), sent, sent));
+  HOMING_RETURN_IF_ERROR(CheckAnswer(response.sequence(), sent - 1, sent));
   if (response.has_resend_from()) {
     buffer->Acknowledge(response.next_sequence(), response.resend_from());
   } else {
     buffer->Acknowledge(response.next_sequence());
   }
-  if (response.next_sequence() > summary_.next_sequence) *progress = true;
   summary_.next_sequence = std::max(summary_.next_sequence, response.next_sequence());
   if (!response.has_sequence() || response.sequence() <= reported_) return absl::OkStatus();
   reported_ = response.sequence();
+  *progress = true;
   return on_answer(response);
 }
 

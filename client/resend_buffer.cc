@@ -39,6 +39,7 @@ absl::StatusOr<std::shared_ptr<const v1::Observation>> ResendBuffer::Next() {
   kept_.push_back(observation);
   cursor_ = kept_.size();
   next_ = observation->sequence() + 1;
+  sent_ = std::max(sent_, next_);
   return observation;
 }
 
@@ -59,12 +60,14 @@ void ResendBuffer::Drop(std::int64_t first, std::int64_t after, std::int64_t seq
 void ResendBuffer::Acknowledge(std::int64_t sequence) {
   const MutexLock lock(mutex_);
   acknowledged_ = std::max(acknowledged_, sequence);
+  sent_ = std::max(sent_, acknowledged_);
   Drop(acknowledged_ - keep_, acknowledged_, acknowledged_);
 }
 
 void ResendBuffer::Acknowledge(std::int64_t sequence, std::int64_t reference) {
   const MutexLock lock(mutex_);
   acknowledged_ = std::max(acknowledged_, sequence);
+  sent_ = std::max(sent_, acknowledged_);
   Drop(reference - keep_, reference + 1, acknowledged_);
 }
 
@@ -98,6 +101,11 @@ absl::Status ResendBuffer::Rewind(std::int64_t resend_from, std::int64_t durable
   marked->set_break_before(true);
   kept_[cursor_] = std::move(marked);
   return absl::OkStatus();
+}
+
+std::int64_t ResendBuffer::sent() const {
+  const MutexLock lock(mutex_);
+  return sent_;
 }
 
 std::int64_t ResendBuffer::RewindAll() {

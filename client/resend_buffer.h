@@ -37,6 +37,10 @@ class ResendBuffer {
   // Sends all kept observations again. Returns the first sequence.
   std::int64_t RewindAll();
 
+  // The sequence after the last one that was sent, or that the server had before. No honest answer
+  // goes beyond it.
+  std::int64_t sent() const;
+
  private:
   using Kept = std::deque<std::shared_ptr<const v1::Observation>>;
 
@@ -48,7 +52,7 @@ class ResendBuffer {
   // Drops the ones before `first`, and the ones from `after` to before `sequence`.
   void Drop(std::int64_t first, std::int64_t after, std::int64_t sequence) HOMING_REQUIRES(mutex_);
 
-  Mutex mutex_;
+  mutable Mutex mutex_;
   ObservationStream* stream_;
   int keep_;
   // In order of sequence. Only acknowledged ones are missing between two.
@@ -58,6 +62,7 @@ class ResendBuffer {
   // The sequence that the stream gives next.
   std::int64_t next_ HOMING_GUARDED_BY(mutex_) = 0;
   std::int64_t acknowledged_ HOMING_GUARDED_BY(mutex_) = 0;
+  std::int64_t sent_ HOMING_GUARDED_BY(mutex_) = 0;
 };
 
 }  // namespace homing::client

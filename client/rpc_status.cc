@@ -2,6 +2,7 @@
 
 #include <google/protobuf/util/time_util.h>
 
+#include <algorithm>
 #include <string>
 
 #include "absl/strings/cord.h"
@@ -15,6 +16,8 @@ namespace {
 
 constexpr char kFromServerUrl[] = "homing.client/from-server";
 constexpr char kRetryDelayUrl[] = "homing.client/retry-delay-ms";
+// A server asks for seconds. A longer wait would silence a robot.
+constexpr std::chrono::milliseconds kMaxRetryDelay = std::chrono::minutes(1);
 
 // `details` is a google.rpc.Status (trailer grpc-status-details-bin).
 std::optional<std::chrono::milliseconds> FindRetryInfo(const std::string& details) {
@@ -23,8 +26,9 @@ std::optional<std::chrono::milliseconds> FindRetryInfo(const std::string& detail
   for (const google::protobuf::Any& any : status.details()) {
     google::rpc::RetryInfo info;
     if (any.UnpackTo(&info)) {
-      return std::chrono::milliseconds(
+      const std::chrono::milliseconds delay(
           google::protobuf::util::TimeUtil::DurationToMilliseconds(info.retry_delay()));
+      return std::clamp(delay, std::chrono::milliseconds(0), kMaxRetryDelay);
     }
   }
   return std::nullopt;

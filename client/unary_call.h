@@ -26,6 +26,7 @@ absl::StatusOr<Response> CallUnary(
   absl::Status status = connection.Retry(stop, [&] {
     grpc::ClientContext context;
     context.set_deadline(std::chrono::system_clock::now() + kCallDeadline);
+    const std::stop_callback cancel(stop, [&context] { context.TryCancel(); });
     return FromGrpc(call(&context, &response));
   });
   if (!status.ok()) return status;

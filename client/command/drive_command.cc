@@ -138,7 +138,7 @@ absl::Status Drive(const Session& session, const DriveFlags& flags) {
   const auto ask = [&](const Observation& seen) -> absl::StatusOr<PilotAnswer> {
     if (session.stop.stop_requested()) return absl::CancelledError("stopped");
     localizer.Send(wire::ToProto(seen));
-    HOMING_ASSIGN_OR_RETURN(const v1::LocalizeResponse answer, localizer.Wait());
+    HOMING_ASSIGN_OR_RETURN(const v1::LocalizeResponse answer, localizer.Wait(session.stop));
     progress.Set(std::lround(home.length_m * answer.progress_home()));
     return ToPilotAnswer(answer, 0);
   };

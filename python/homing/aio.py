@@ -10,7 +10,7 @@ import grpc
 
 from . import convert
 from .connection import Retry, Server, Trace, credentials, options, target
-from .errors import HomingError, from_rpc
+from .errors import from_rpc
 from .outbox import Outbox
 from .types import Answer, Camera, Journey, Match, Observation, Recorded, Travel, View
 from .v1 import (homing_service_pb2, homing_service_pb2_grpc, journey_service_pb2,
@@ -62,6 +62,9 @@ class _Sender:
 
     def answered(self) -> None:
         self._room.release()
+
+    def is_done(self) -> bool:
+        return self._ended and self._outbox.is_done()
 
     async def take(self) -> Optional[Any]:
         while True:
@@ -136,38 +139,36 @@ class AsyncClient:
             while True:
                 call = self._journeys.RecordJourney(metadata=self._trace.metadata())
                 writing: Optional[asyncio.Future] = None
+                error: Optional[grpc.RpcError] = None
                 try:
                     await call.write(config)
-                    first = await _read(call)
-                    if first is None:
-                        raise HomingError("UNAVAILABLE", "the server ended the stream early")
-                    reference = (first.resend_from
-                                 if first.HasField("resend_from") else first.next_sequence)
-                    outbox.begin(first.next_sequence, min(reference, first.next_sequence))
-                    reported = max(reported, first.next_sequence - 1)
-                    if sender is None:
-                        # A source that begins again passes over what the server has.
-                        passed_over = 0 if live else first.next_sequence
-                        sender = _Sender(observations, outbox, window + passed_over)
-                    writing = asyncio.ensure_future(_write(
-                        call, sender,
-                        lambda seen: journey_service_pb2.RecordJourneyRequest(observation=seen)))
                     async for response in _responses(call):
                         durable = response.next_sequence
                         has_reference = response.HasField("resend_from")
-                        sender.acknowledge(durable,
-                                           response.resend_from if has_reference else durable)
-                        if response.sequence > reported:
+                        reference = response.resend_from if has_reference else durable
+                        if sender is None or writing is None:
+                            outbox.begin(durable, min(reference, durable))
+                            reported = max(reported, durable - 1)
+                            if sender is None:
+                                # A source that begins again passes over what the server has.
+                                room = window + (0 if live else durable)
+                                sender = _Sender(observations, outbox, room)
+                            writing = asyncio.ensure_future(_write(call, sender, _record_request))
+                            continue
+                        sender.acknowledge(durable, reference)
+                        if reported < response.sequence < durable:
                             reported = response.sequence
                             sender.answered()
                             retry.progress()
                             yield convert.recorded(response)
-                    break
-                except grpc.RpcError as error:
-                    await _wait(retry, error)
+                    if sender is not None and sender.is_done():
+                        break
+                except grpc.RpcError as caught:
+                    error = caught
                 finally:
                     call.cancel()
                     await _cancel(writing)
+                await _wait(retry, error)
         finally:
             if sender is not None:
                 await sender.close()
@@ -193,6 +194,7 @@ class AsyncClient:
             while True:
                 call = self._homing.Localize(metadata=self._trace.metadata())
                 writing: Optional[asyncio.Future] = None
+                error: Optional[grpc.RpcError] = None
                 try:
                     await call.write(homing_service_pb2.LocalizeRequest(config=config))
                     writing = asyncio.ensure_future(_write(
@@ -201,22 +203,24 @@ class AsyncClient:
                     async for response in _responses(call):
                         if response.sequence <= reported:
                             continue
+                        sender.acknowledge(response.sequence + 1, response.sequence)
                         reported = response.sequence
-                        sender.acknowledge(reported + 1, reported)
                         sender.answered()
                         retry.progress()
                         last = convert.prior(response)
                         if last is not None:
                             config.prior.CopyFrom(last)
                         yield convert.answer(response)
-                    break
-                except grpc.RpcError as error:
-                    await _wait(retry, error)
-                    # The last one answered is sent again: flow continues from it.
-                    sender.begin(reported + 1, max(reported, 0))
+                    if sender.is_done():
+                        break
+                except grpc.RpcError as caught:
+                    error = caught
                 finally:
                     call.cancel()
                     await _cancel(writing)
+                await _wait(retry, error)
+                # The last one answered is sent again: flow continues from it.
+                sender.begin(reported + 1, max(reported, 0))
         finally:
             await sender.close()
         if sender.error is not None:
@@ -252,7 +256,11 @@ class AsyncClient:
                          journey_service_pb2.DeleteJourneyRequest(name=journey))
 
 
-async def _wait(retry: Retry, error: grpc.RpcError) -> None:
+def _record_request(seen: Any) -> Any:
+    return journey_service_pb2.RecordJourneyRequest(observation=seen)
+
+
+async def _wait(retry: Retry, error: Optional[grpc.RpcError]) -> None:
     wait = retry.wait_after(error)
     if wait is None:
         raise from_rpc(error) from None

@@ -33,6 +33,9 @@ class _Link:
     def begin(self) -> None:
         self._may_begin.set()
 
+    def has_begun(self) -> bool:
+        return self._may_begin.is_set()
+
     def answered(self) -> None:
         self._room.release()
 
@@ -73,6 +76,10 @@ class _Sender:
         with self._lock:
             self._outbox.acknowledge(durable, reference)
 
+    def is_done(self) -> bool:
+        with self._lock:
+            return self._ended and self._outbox.is_done()
+
     def take(self, over: Callable[[], bool]) -> Optional[Any]:
         with self._pull:
             while not over():
@@ -92,6 +99,13 @@ class _Sender:
                 with self._lock:
                     self._outbox.add(message)
         return None
+
+
+def _wait(retry: Retry, error: Optional[grpc.RpcError]) -> None:
+    wait = retry.wait_after(error)
+    if wait is None:
+        raise from_rpc(error) from None
+    time.sleep(wait)
 
 
 class Client:
@@ -122,10 +136,7 @@ class Client:
             try:
                 return method(request, timeout=60, metadata=self._trace.metadata())
             except grpc.RpcError as error:
-                wait = retry.wait_after(error)
-                if wait is None:
-                    raise from_rpc(error) from None
-                time.sleep(wait)
+                _wait(retry, error)
 
     def record(self, journey: str, observations: Iterable[Seen], *, writer: str = "python",
                live: bool = False, left_camera: Optional[Camera] = None,
@@ -147,6 +158,7 @@ class Client:
         retry = Retry(self._server)
         reported = -1
         while True:
+            error: Optional[grpc.RpcError] = None
             link = _Link(sender, config,
                          lambda seen: journey_service_pb2.RecordJourneyRequest(observation=seen),
                          window)
@@ -157,26 +169,25 @@ class Client:
                     durable = response.next_sequence
                     has_reference = response.HasField("resend_from")
                     reference = response.resend_from if has_reference else durable
-                    if not response.HasField("sequence"):
+                    if not link.has_begun():
                         sender.begin(durable, min(reference, durable))
                         reported = max(reported, durable - 1)
                         link.begin()
                         continue
                     sender.acknowledge(durable, reference)
                     link.answered()
-                    retry.progress()
-                    if response.sequence > reported:
+                    if reported < response.sequence < durable:
                         reported = response.sequence
+                        retry.progress()
                         yield convert.recorded(response)
-                break
-            except grpc.RpcError as error:
-                wait = retry.wait_after(error)
-                if wait is None:
-                    raise from_rpc(error) from None
-                time.sleep(wait)
+                if sender.is_done():
+                    break
+            except grpc.RpcError as caught:
+                error = caught
             finally:
                 link.close()
                 stream.cancel()
+            _wait(retry, error)
         if sender.error is not None:
             raise sender.error
         if finish:
@@ -195,6 +206,7 @@ class Client:
         retry = Retry(self._server)
         reported = -1
         while True:
+            error: Optional[grpc.RpcError] = None
             link = _Link(sender, homing_service_pb2.LocalizeRequest(config=config),
                          lambda seen: homing_service_pb2.LocalizeRequest(observation=seen), window)
             link.begin()
@@ -204,24 +216,23 @@ class Client:
                     link.answered()
                     if response.sequence <= reported:
                         continue
+                    sender.acknowledge(response.sequence + 1, response.sequence)
                     reported = response.sequence
-                    sender.acknowledge(reported + 1, reported)
                     retry.progress()
                     last = convert.prior(response)
                     if last is not None:
                         config.prior.CopyFrom(last)
                     yield convert.answer(response)
-                break
-            except grpc.RpcError as error:
-                wait = retry.wait_after(error)
-                if wait is None:
-                    raise from_rpc(error) from None
-                time.sleep(wait)
-                # The last one answered is sent again: flow continues from it.
-                sender.begin(reported + 1, max(reported, 0))
+                if sender.is_done():
+                    break
+            except grpc.RpcError as caught:
+                error = caught
             finally:
                 link.close()
                 stream.cancel()
+            _wait(retry, error)
+            # The last one answered is sent again: flow continues from it.
+            sender.begin(reported + 1, max(reported, 0))
         if sender.error is not None:
             raise sender.error
 

@@ -62,7 +62,8 @@ def options(server: Server) -> Sequence[Tuple[str, Union[int, str]]]:
               ("grpc.max_reconnect_backoff_ms", 1000),
               ("grpc.initial_reconnect_backoff_ms", 100)]
     if "," not in server.address and not server.address.startswith("dns:///"):
-        return common
+        # Notices within half a minute that the server, or the way to it, has fallen silent.
+        return common + [("grpc.keepalive_time_ms", 20000), ("grpc.keepalive_timeout_ms", 10000)]
     # Calls are spread over the servers; one that falls silent is left within three seconds. The
     # first one's name is that of the certificates.
     name = server.address.split("dns:///")[-1].split(",")[0]
@@ -117,13 +118,13 @@ class Retry:
         self._wait = 0.1
         self._corrections = 0
 
-    def wait_after(self, error: grpc.RpcError) -> Optional[float]:
-        """Seconds to wait; None: give up."""
-        if is_correctable(error):
+    def wait_after(self, error: Optional[grpc.RpcError]) -> Optional[float]:
+        """Seconds to wait; None: give up. The error of a stream that ended early is None."""
+        if error is not None and is_correctable(error):
             self._corrections += 1
             if self._corrections > _MAX_CORRECTIONS:
                 return None
-        elif not is_retriable(error):
+        elif error is not None and not is_retriable(error):
             return None
         if time.monotonic() - self._last >= self._retry_for:
             return None

@@ -139,29 +139,37 @@ def prior(answer: homing_service_pb2.LocalizeResponse) -> Optional[Any]:
     return message
 
 
+def _enum(kind: Any, number: int) -> Any:
+    """A newer server may have values that this package does not know."""
+    try:
+        return kind(number)
+    except ValueError:
+        return Outcome.UNKNOWN_PLACE if kind is Outcome else kind.UNKNOWN
+
+
 def _optional(message: Any, field: str) -> Any:
     return getattr(message, field) if message.HasField(field) else None
 
 
 def recorded(message: journey_service_pb2.RecordJourneyResponse) -> Recorded:
     return Recorded(sequence=message.sequence, step=_optional(message, "step"),
-                    motion=Motion(message.motion), landmarks=len(message.landmarks))
+                    motion=_enum(Motion, message.motion), landmarks=len(message.landmarks))
 
 
 def match(message: types_pb2.Match) -> Match:
     return Match(journey=message.journey, landmark=message.landmark, step=message.step,
-                 side=Side(message.side), delta=message.delta, p=message.p, p_t=message.p_t)
+                 side=_enum(Side, message.side), delta=message.delta, p=message.p, p_t=message.p_t)
 
 
 def answer(message: homing_service_pb2.LocalizeResponse) -> Answer:
     interval = None
     if message.HasField("interval"):
         interval = (message.interval.first, message.interval.last)
-    return Answer(sequence=message.sequence, outcome=Outcome(message.outcome),
-                  motion=Motion(message.motion), journey=message.journey or None,
+    return Answer(sequence=message.sequence, outcome=_enum(Outcome, message.outcome),
+                  motion=_enum(Motion, message.motion), journey=message.journey or None,
                   step=_optional(message, "step"), probability=message.probability,
                   interval=interval, progress_home=_optional(message, "progress_home"),
-                  direction=Direction(message.direction),
+                  direction=_enum(Direction, message.direction),
                   speed_ratio=_optional(message, "speed_ratio"), turn=_optional(message, "turn"),
                   path_offset=_optional(message, "path_offset"), on_route=message.on_route,
                   landmark=_optional(message, "landmark"),

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Optional
+
 import grpc
 
 _RETRY_INFO = b"google.rpc.RetryInfo"
@@ -16,7 +18,10 @@ class HomingError(Exception):
         self.message = message
 
 
-def from_rpc(error: grpc.RpcError) -> HomingError:
+def from_rpc(error: Optional[grpc.RpcError]) -> HomingError:
+    """None: the stream ended without an error before everything was answered."""
+    if error is None:
+        return HomingError("UNAVAILABLE", "the server ended the stream early")
     return HomingError(error.code().name, error.details() or "")
 
 

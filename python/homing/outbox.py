@@ -5,6 +5,7 @@ from __future__ import annotations
 import collections
 from typing import Deque, Optional
 
+from .errors import HomingError
 from .v1 import types_pb2
 
 
@@ -17,6 +18,8 @@ class Outbox:
         self._begun = False
         self._kept: Deque[types_pb2.Observation] = collections.deque()
         self._next_number = 0
+        # The number after the last one sent, or that the server had before.
+        self._sent = 0
         self._cursor = 0
         self._break_at = -1
         # Of a source that begins again: the server has all before, and asks for one of them.
@@ -25,6 +28,8 @@ class Outbox:
 
     def begin(self, durable: int, reference: int) -> None:
         """A new link: the server has all before `durable`, and flow continues from `reference`."""
+        self._sent = max(self._sent, durable)
+        self._believe(durable)
         if not self._begun:
             self._begun = True
             self._durable = durable
@@ -42,7 +47,17 @@ class Outbox:
         if not has_reference and reference < durable:
             self._break_at = durable
 
+    def _believe(self, durable: int) -> None:
+        if not 0 <= durable <= self._sent:
+            raise HomingError("DATA_LOSS", f"the server answers observation {durable - 1}, but the "
+                              f"last one sent is {self._sent - 1}")
+
+    def is_done(self) -> bool:
+        """The server has everything that was added."""
+        return all(kept.sequence < self._durable for kept in self._kept)
+
     def acknowledge(self, durable: int, reference: int) -> None:
+        self._believe(durable)
         self._durable = max(self._durable, durable)
         self._kept = collections.deque(
             kept for kept in self._kept if kept.sequence >= durable or kept.sequence == reference)
@@ -52,6 +67,7 @@ class Outbox:
         for kept in self._kept:
             if kept.sequence >= self._cursor:
                 self._cursor = kept.sequence + 1
+                self._sent = max(self._sent, self._cursor)
                 if kept.sequence == self._break_at:
                     kept.break_before = True
                 return kept

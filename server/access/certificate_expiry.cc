@@ -10,7 +10,7 @@
 #include <optional>
 
 #include "absl/strings/str_cat.h"
-#include "homing/base/file_text.h"
+#include "server/access/flag_file.h"
 #include "server/access/openssl_handle.h"
 
 namespace homing::server {
@@ -29,7 +29,7 @@ std::optional<std::int64_t> SecondsOf(const ASN1_TIME* time) {
 
 void AddFile(const std::string& flag, const std::string& path,
              std::vector<CertificateExpiry>* expiries) {
-  const std::string pem = ReadFile(path).value_or("");
+  const std::string pem = ReadFlagFile(flag, path).value_or("");
   const OpensslPtr<STACK_OF(X509_INFO)> items(
       PEM_X509_INFO_read_bio(ReadingBio(pem).get(), nullptr, nullptr, nullptr));
   ERR_clear_error();

@@ -13,7 +13,7 @@ namespace homing::server {
 absl::Status FlagFileError(const std::string& flag, const std::string& path,
                            const std::string& what);
 
-// All of the file. INVALID_ARGUMENT: it cannot be read.
+// All of the regular file. INVALID_ARGUMENT: it is none, or cannot be read.
 absl::StatusOr<std::string> ReadFlagFile(const std::string& flag, const std::string& path);
 
 }  // namespace homing::server

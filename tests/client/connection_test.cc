@@ -18,7 +18,7 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-grpc::Status WithRetryInfo(grpc::StatusCode code, int seconds) {
+grpc::Status WithRetryInfo(grpc::StatusCode code, std::int64_t seconds) {
   google::rpc::RetryInfo info;
   info.mutable_retry_delay()->set_seconds(seconds);
   google::rpc::Status details;
@@ -162,6 +162,15 @@ TEST(RpcStatusTest, ReadsTheDelayTheServerNames) {
   EXPECT_THAT(status, StatusIs(absl::StatusCode::kResourceExhausted, "later"));
   EXPECT_EQ(RetryDelay(status), std::chrono::seconds(3));
   EXPECT_TRUE(IsRetriable(status));
+}
+
+TEST(RpcStatusTest, ADelayIsAtMostAMinute) {
+  for (const int days : {1, 100'000}) {
+    const auto status = FromGrpc(WithRetryInfo(grpc::StatusCode::UNAVAILABLE, days * 86'400LL));
+    EXPECT_EQ(RetryDelay(status), std::chrono::minutes(1));
+  }
+  EXPECT_EQ(RetryDelay(FromGrpc(WithRetryInfo(grpc::StatusCode::UNAVAILABLE, -5))),
+            std::chrono::seconds(0));
 }
 
 TEST(RpcStatusTest, ACallCancelledByAStoppingServerIsRetried) {

@@ -28,6 +28,7 @@ bool FakeJourneyService::Store(const v1::Observation& observation) {
   const MutexLock lock(mutex_);
   received_.push_back(observation.sequence());
   const auto next = static_cast<std::int64_t>(stored_.size());
+  if (faults_.forgets) return true;
   if (observation.sequence() > next) return false;
   if (observation.sequence() == next) stored_.push_back(observation);
   return true;
@@ -37,7 +38,12 @@ void FakeJourneyService::Answer(RecordStream* stream, std::int64_t sequence) {
   v1::RecordJourneyResponse answer;
   answer.set_sequence(sequence);
   answer.set_next_sequence(static_cast<std::int64_t>(stored().size()));
+  if (faults_.lie) faults_.lie(&answer);
   stream->Write(answer);
+}
+
+grpc::Status FakeJourneyService::Broken() const {
+  return faults_.breaks_silently ? grpc::Status::OK : kLinkBroken;
 }
 
 grpc::Status FakeJourneyService::RecordJourney(grpc::ServerContext*, RecordStream* stream) {
@@ -68,7 +74,7 @@ grpc::Status FakeJourneyService::RecordJourney(grpc::ServerContext*, RecordStrea
     Answer(stream, request.observation().sequence());
     if (faults_.duplicate_answers) Answer(stream, request.observation().sequence());
   }
-  return break_after == received ? kLinkBroken : grpc::Status::OK;
+  return break_after == received ? Broken() : grpc::Status::OK;
 }
 
 grpc::Status FakeJourneyService::Localize(
@@ -85,9 +91,10 @@ grpc::Status FakeJourneyService::Localize(
     ++received;
     v1::LocalizeResponse answer;
     answer.set_sequence(request.observation().sequence());
+    if (faults_.lie_home) faults_.lie_home(&answer);
     stream->Write(answer);
   }
-  return break_after == received ? kLinkBroken : grpc::Status::OK;
+  return break_after == received ? Broken() : grpc::Status::OK;
 }
 
 std::vector<v1::Observation> FakeJourneyService::stored() const {

@@ -4,6 +4,7 @@
 
 #include <grpcpp/server.h>
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -25,6 +26,13 @@ struct Faults {
   int gap_links = 0;
   // Earlier observations that the server asks for again.
   int look_back = 1;
+  // A link ends without an error instead of breaking.
+  bool breaks_silently = false;
+  // Nothing is stored.
+  bool forgets = false;
+  // Changes each answer.
+  std::function<void(v1::RecordJourneyResponse*)> lie;
+  std::function<void(v1::LocalizeResponse*)> lie_home;
   grpc::Status refuse = grpc::Status::OK;
 };
 
@@ -52,6 +60,7 @@ class FakeJourneyService : public v1::JourneyService::Service, public v1::Homing
 
   int BeginLink();
   int BreakAfter(int link) const;
+  grpc::Status Broken() const;
   // False: a gap.
   bool Store(const v1::Observation& observation);
   void Answer(RecordStream* stream, std::int64_t sequence);

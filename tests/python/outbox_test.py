@@ -33,6 +33,7 @@ class OutboxTest(unittest.TestCase):
         outbox = Outbox()
         outbox.begin(0, 0)
         add(outbox, 5)
+        sent(outbox)
         outbox.acknowledge(3, 3)
         outbox.begin(3, 1)
         self.assertEqual(sent(outbox), [(3, True), (4, False)])

@@ -19,8 +19,15 @@ class ClockWatchTest : public ::testing::Test {
   ClockWatch watch_;
 };
 
-TEST_F(ClockWatchTest, ASteadyClockIsTrustedFromTheBeginning) {
-  EXPECT_EQ(Since(kNow, 0), ClockWatch::kEarliestNs);
+TEST_F(ClockWatchTest, NoAgeIsTrustedInTheFirstTenMinutes) {
+  constexpr std::int64_t kFiftyYears = 50 * 365 * 24 * 60 * kMinute;
+  EXPECT_GT(Since(kNow + kFiftyYears, 0), kNow + kFiftyYears);
+  EXPECT_GT(Since(kNow + kFiftyYears + 9 * kMinute, 9), kNow + kFiftyYears);
+  EXPECT_EQ(Since(kNow + 10 * kMinute, 10), ClockWatch::kEarliestNs);
+}
+
+TEST_F(ClockWatchTest, ASteadyClockIsTrusted) {
+  Since(kNow, 0);
   EXPECT_EQ(Since(kNow + 60 * kMinute, 60), ClockWatch::kEarliestNs);
   EXPECT_EQ(Since(kNow + 63 * kMinute, 61), ClockWatch::kEarliestNs);
 }
@@ -32,13 +39,13 @@ TEST_F(ClockWatchTest, WhatWasMadeIn1970IsNotTrusted) {
 TEST_F(ClockWatchTest, AfterAJumpOnlyWhatIsNewIsTrusted) {
   Since(kNow, 0);
   const std::int64_t learnt = kNow + 50'000 * kMinute;
-  EXPECT_EQ(Since(learnt, 1), learnt);
-  EXPECT_EQ(Since(learnt + kMinute, 2), learnt);
+  EXPECT_EQ(Since(learnt, 11), learnt);
+  EXPECT_EQ(Since(learnt + kMinute, 12), learnt);
 }
 
 TEST_F(ClockWatchTest, AClockThatIsSetBackIsNoReason) {
   Since(kNow, 0);
-  EXPECT_EQ(Since(kNow - 500 * kMinute, 1), ClockWatch::kEarliestNs);
+  EXPECT_EQ(Since(kNow - 500 * kMinute, 11), ClockWatch::kEarliestNs);
 }
 
 }  // namespace

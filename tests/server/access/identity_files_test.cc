@@ -54,6 +54,16 @@ TEST_F(IdentityFilesTest, ATokenFindsWhoseItIsAndItsFileDoesNotHoldIt) {
   EXPECT_GE(first.size(), 43u);
 }
 
+TEST_F(IdentityFilesTest, NeitherAPipeNorADeviceIsWaitedFor) {
+  const std::string pipe = folder_.File("pipe");
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  for (const std::string& path : {pipe, std::string("/dev/zero"), folder_.File("")}) {
+    EXPECT_THAT(TokenBook::Read(path).status(),
+                StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("is not a regular file")))
+        << path;
+  }
+}
+
 TEST_F(IdentityFilesTest, SeveralTokensMayBeOneIdentitys) {
   const std::string path = folder_.File("tokens.toml");
   ASSERT_THAT(AddToken(path, "robots/r1", HashToken("old")), IsOk());

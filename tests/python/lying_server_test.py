@@ -1,0 +1,133 @@
+"""The clients against a server that answers what is not true, and one that falls silent."""
+
+import asyncio
+import unittest
+from concurrent import futures
+
+import grpc
+import numpy as np
+
+import homing
+import homing.aio
+from homing.connection import options
+from homing.types import Motion, Outcome
+from homing.v1 import (homing_service_pb2, homing_service_pb2_grpc, journey_service_pb2,
+                       journey_service_pb2_grpc)
+
+JOURNEY = "robots/r/journeys/a"
+FRAMES = [np.full((16, 16), number, np.uint8) for number in range(8)]
+COUNT = len(FRAMES)
+
+
+class LyingServer(journey_service_pb2_grpc.JourneyServiceServicer,
+                  homing_service_pb2_grpc.HomingServiceServicer):
+    """Ends a stream without an error after `ends_after` observations; `lie` changes each answer."""
+
+    def __init__(self, ends_after=None, lie=lambda answer: None):
+        self.ends_after = ends_after
+        self.lie = lie
+        self.stored = 0
+        self.finished = False
+        self.server = grpc.server(futures.ThreadPoolExecutor(4))
+        journey_service_pb2_grpc.add_JourneyServiceServicer_to_server(self, self.server)
+        homing_service_pb2_grpc.add_HomingServiceServicer_to_server(self, self.server)
+        port = self.server.add_insecure_port("127.0.0.1:0")
+        self.address = homing.Server(address=f"127.0.0.1:{port}", retry_for=0.5)
+
+    def __enter__(self):
+        self.server.start()
+        return self
+
+    def __exit__(self, *unused):
+        self.server.stop(0)
+
+    def CreateJourney(self, request, context):
+        return journey_service_pb2.Journey(name=JOURNEY)
+
+    def FinishJourney(self, request, context):
+        self.finished = True
+        return journey_service_pb2.FinishJourneyResponse()
+
+    def RecordJourney(self, requests, context):
+        next(requests)
+        answer = journey_service_pb2.RecordJourneyResponse
+        yield answer(next_sequence=self.stored, resend_from=self.stored)
+        for count, request in enumerate(requests, 1):
+            if count == self.ends_after:
+                return
+            sequence = request.observation.sequence
+            truth = answer(sequence=sequence, next_sequence=max(self.stored, sequence + 1))
+            self.lie(truth)
+            self.stored = truth.next_sequence
+            yield truth
+
+    def Localize(self, requests, context):
+        next(requests)
+        for count, request in enumerate(requests, 1):
+            if count == self.ends_after:
+                return
+            truth = homing_service_pb2.LocalizeResponse(sequence=request.observation.sequence)
+            self.lie(truth)
+            yield truth
+
+
+def record(liar):
+    with homing.Client(liar.address) as client:
+        return list(client.record(JOURNEY, iter(FRAMES)))
+
+
+def localize(liar):
+    with homing.Client(liar.address) as client:
+        return list(client.localize(JOURNEY, iter(FRAMES)))
+
+
+def of_aio(method):
+    async def run(liar):
+        async with homing.aio.AsyncClient(liar.address) as client:
+            return [answer async for answer in getattr(client, method)(JOURNEY, iter(FRAMES))]
+    return lambda liar: asyncio.run(run(liar))
+
+
+RECORDING = (record, of_aio("record"))
+LOCALISING = (localize, of_aio("localize"))
+
+
+class LyingServerTest(unittest.TestCase):
+
+    def test_a_stream_that_ends_early_without_an_error_is_a_lost_link(self):
+        for run in RECORDING + LOCALISING:
+            with LyingServer(ends_after=4) as liar:
+                self.assertEqual([answer.sequence for answer in run(liar)], list(range(COUNT)))
+
+    def test_what_is_not_acknowledged_is_not_finished(self):
+        for run in RECORDING:
+            with LyingServer(lie=lambda answer: setattr(answer, "next_sequence", 0)) as liar:
+                with self.assertRaisesRegex(homing.HomingError, "ended the stream early"):
+                    run(liar)
+                self.assertFalse(liar.finished)
+
+    def test_no_answer_to_what_was_not_sent_is_believed(self):
+        for runs, field in ((RECORDING, "next_sequence"), (LOCALISING, "sequence")):
+            for run in runs:
+                for number in (100, 2**63 - 1):
+                    with LyingServer(lie=lambda answer: setattr(answer, field, number)) as liar:
+                        with self.assertRaisesRegex(homing.HomingError, "DATA_LOSS"):
+                            run(liar)
+                        self.assertFalse(liar.finished)
+
+    def test_values_of_a_newer_server_are_unknown(self):
+        for run in RECORDING + LOCALISING:
+            with LyingServer(lie=lambda answer: setattr(answer, "motion", 77)) as liar:
+                self.assertEqual({answer.motion for answer in run(liar)}, {Motion.UNKNOWN})
+        for run in LOCALISING:
+            with LyingServer(lie=lambda answer: setattr(answer, "outcome", 77)) as liar:
+                self.assertEqual({answer.outcome for answer in run(liar)}, {Outcome.UNKNOWN_PLACE})
+
+    def test_a_silent_server_is_noticed(self):
+        for address in ("127.0.0.1:1", "127.0.0.1:1,127.0.0.1:2"):
+            self.assertIn("grpc.keepalive_time_ms",
+                          dict(options(homing.Server(address=address))))
+
+
+if __name__ == "__main__":
+    unittest.main()
