@@ -11,8 +11,11 @@ namespace {
 // A rotation explains at least this fraction of the flow of a turn on the spot.
 constexpr double kMinExplained = 0.8;
 constexpr double kMaxResidualRatio = 0.25;
-// The two cameras' pans, and one camera's pan and vertical pan, agree within this factor.
+// One camera's pan and vertical pan agree within this factor.
 constexpr double kMaxPanRatio = 2;
+// The two cameras' pans agree within this factor: a robot that turns while it drives past distant
+// objects moves both images the same way, too.
+constexpr double kMaxRatioOfBoth = 1.3;
 // A vertical pan is significant from this many standard errors on.
 constexpr double kMinSignificance = 4;
 
@@ -21,22 +24,21 @@ bool IsExplained(const RotationFit& fit) {
          fit.median_residual <= kMaxResidualRatio * fit.median_length;
 }
 
-// Same sign, and alike in size.
-bool Agree(double a, double b) {
-  return a * b > 0 && std::abs(a) <= kMaxPanRatio * std::abs(b) &&
-         std::abs(b) <= kMaxPanRatio * std::abs(a);
+// Same sign, and alike in size, within the factor `most`.
+bool Agree(double a, double b, double most) {
+  return a * b > 0 && std::abs(a) <= most * std::abs(b) && std::abs(b) <= most * std::abs(a);
 }
 
 // A single camera needs the vertical components: without them a flat wall passed sideways moves
 // nearly as if the camera turned.
 bool IsTurning(const RotationFit& fit) {
-  return IsExplained(fit) && Agree(fit.pan, fit.vertical_pan) &&
+  return IsExplained(fit) && Agree(fit.pan, fit.vertical_pan, kMaxPanRatio) &&
          std::abs(fit.vertical_pan) >= kMinSignificance * fit.vertical_pan_error;
 }
 
 // A turn moves the images of both sideways cameras the same way, driving moves them opposite ways.
 bool IsTurning(const RotationFit& left, const RotationFit& right) {
-  return IsExplained(left) && IsExplained(right) && Agree(left.pan, right.pan);
+  return IsExplained(left) && IsExplained(right) && Agree(left.pan, right.pan, kMaxRatioOfBoth);
 }
 
 // True if the upper median of the lengths is at least `least`: then half of the vectors, rounded

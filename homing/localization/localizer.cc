@@ -97,7 +97,7 @@ absl::StatusOr<Localization> Localizer::Localize(const Observation& observation,
   const ObservedFlow straight = FollowPath(journeys, seen.flow, seen.motion);
   const SeenProfiles profiles = MakeRouteProfiles(straight, seen.motion);
   result.position = filter_.Update(journeys, seen.motion, seen.landmarks, profiles);
-  ReportPose(journeys, seen.flow, result);
+  ReportPose(seen.flow, result);
   ReportLandmark(journeys, seen.landmarks, result);
   last_ = result;
   last_->matches.clear();
@@ -117,11 +117,12 @@ ObservedFlow Localizer::FollowPath(std::span<const JourneyRef> journeys, const O
   path_.Begin(options_.cameras);
   if (motion != Motion::kMoving || !last_ || !last_->position.step) return flow;
   const JourneyMap& map = *journeys[static_cast<std::size_t>(last_->position.journey)].map;
-  return path_.Predict(map, *last_->position.step, flow) ? path_.Straighten(flow) : flow;
+  if (!path_.Predict(map, *last_->position.step, flow)) return flow;
+  path_.Correct(map, *last_->position.step, flow);
+  return path_.Straighten(flow);
 }
 
-void Localizer::ReportPose(std::span<const JourneyRef> journeys, const ObservedFlow& flow,
-                           Localization& result) {
+void Localizer::ReportPose(const ObservedFlow& flow, Localization& result) {
   result.position.path_offset.reset();
   const auto report_heading = [&] {
     result.turn = path_.pose().heading - reported_heading_;
@@ -142,8 +143,6 @@ void Localizer::ReportPose(std::span<const JourneyRef> journeys, const ObservedF
     if (path_.TurnAlone(flow)) report_heading();
     path_.Forget();
   } else if (path_.has_motion()) {
-    const JourneyMap& map = *journeys[static_cast<std::size_t>(result.position.journey)].map;
-    path_.Correct(map, *result.position.step, flow);
     report_heading();
     if (path_.is_started()) result.position.path_offset = path_.pose().offset;
   } else if (path_.TurnAlone(flow)) {

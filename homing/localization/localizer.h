@@ -80,8 +80,7 @@ class Localizer {
   ObservedFlow FollowPath(std::span<const JourneyRef> journeys, const ObservedFlow& flow,
                           Motion motion);
   // Writes the pose beside the path, and the turn relative to the path, into the answer.
-  void ReportPose(std::span<const JourneyRef> journeys, const ObservedFlow& flow,
-                  Localization& result);
+  void ReportPose(const ObservedFlow& flow, Localization& result);
   void ReportLandmark(std::span<const JourneyRef> journeys, const SeenSides& seen,
                       Localization& result);
 

@@ -20,10 +20,8 @@ constexpr double kLeastOffsetStep = 0.06, kMostOffsetStep = 0.15;
 constexpr double kLeastHeadingStep = 0.04, kMostHeadingStep = 0.12;
 // Steps tried either way.
 constexpr std::int64_t kSteps = 10;
-// Log likelihood of a unit of profile distance. The pose is corrected each time that the robot has
-// driven kCorrectionSpacing: views nearer to each other repeat the same evidence.
+// Log likelihood of a unit of profile distance.
 constexpr double kPerDistance = 1.0 / 60;
-constexpr double kCorrectionSpacing = 0.10;
 // A motion below this, or below this share of the turn, shows no depth. The first offset is
 // reported after kDrivenAtStart.
 constexpr double kLeastDriven = 0.003;
@@ -49,8 +47,8 @@ struct PathPoseFilter::Tried {
 void PathPoseFilter::Correct(const JourneyMap& map, std::int64_t step, const ObservedFlow& flow) {
   if (std::abs(driven_) < std::max(kLeastDriven, kLeastOfTurn * std::abs(turned_))) return;
   uncorrected_ += std::abs(driven_);
+  driven_since_lost_ += std::abs(driven_);
   if (uncorrected_ < kCorrectionSpacing) return;
-  driven_since_lost_ += uncorrected_;
   uncorrected_ = 0;
   Tried tried = PosesToTry();
   const std::int64_t first = std::max<std::int64_t>(0, step - kSteps);

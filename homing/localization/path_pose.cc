@@ -119,6 +119,7 @@ void PathPoseFilter::Turn(double turned) {
 void PathPoseFilter::Forget() {
   is_started_ = false;
   driven_since_lost_ = 0;
+  uncorrected_ = kCorrectionSpacing;
   advance_.reset();
   pose_.offset = 0;
   offset_variance_ = kFirstOffset * kFirstOffset;

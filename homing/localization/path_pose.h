@@ -52,8 +52,7 @@ class PathPoseFilter {
   bool TurnAlone(const ObservedFlow& flow);
   // The flow that a robot heading along the path, without turning, would have seen.
   ObservedFlow Straighten(const ObservedFlow& flow) const;
-  // Corrects the pose by comparing the images with the steps around `step`. `flow`: the argument of
-  // Straighten.
+  // Corrects the pose by comparing the images with the steps around `step`, the step of Predict.
   void Correct(const JourneyMap& map, std::int64_t step, const ObservedFlow& flow);
 
   // The estimated pose; the heading is 0 at first.
@@ -70,6 +69,9 @@ class PathPoseFilter {
   // Bounds of the belief: of the offset, and of the heading, rad.
   static constexpr double kMostOffset = 0.6;
   static constexpr double kMostHeading = 0.8;
+  // The pose is corrected at once, and then each time that the robot has driven this far: views
+  // nearer to each other repeat the same evidence.
+  static constexpr double kCorrectionSpacing = 0.10;
 
   // Steps advanced, negative towards home, and the path's own turn at each, rad to the left of the
   // outbound robot.
@@ -102,7 +104,7 @@ class PathPoseFilter {
   bool knows_heading_ = false;
   bool has_motion_ = false;
   // Distance driven since the last correction, and since the robot was lost, scene distances.
-  double uncorrected_ = 0;
+  double uncorrected_ = kCorrectionSpacing;
   double driven_since_lost_ = 0;
   PathPose pose_;
   // Covariance of offset and heading.

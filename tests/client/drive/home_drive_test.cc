@@ -114,6 +114,26 @@ TEST_P(HomeDriveTest, TheFirstOffsetComesSoon) {
   EXPECT_LT(driven_m, 3);
 }
 
+// A view that is turned resembles another place: the robot must learn its heading before the filter
+// leaves the right place.
+TEST_P(HomeDriveTest, TheFirstViewsTellTheHeading) {
+  for (const double askew : {-0.17, 0.17}) {
+    ProjectedEyes eyes(cameras_.get(), {.seed = 3});
+    drive::LocalLocalizer localizer(&map_, Travel::kReturn);
+    Pose pose = cameras_->route().At(20);
+    pose.heading += kTurn / 2 + askew;
+    double heading = 0;
+    for (std::int64_t frame = 0; frame < 4; ++frame) {
+      Observation seen = eyes.See(pose, 5000 + frame);
+      seen.sequence = frame;
+      heading += localizer.Answer(seen)->turn.value_or(0);
+      pose.position = pose.At(0.1, 0);
+    }
+    EXPECT_GT(heading / askew, 0.25);
+    EXPECT_LT(heading / askew, 1.25);
+  }
+}
+
 TEST_P(HomeDriveTest, PathOffsetGrowsWithTheOffsetAndIsNearTheTruth) {
   constexpr std::array kLeftM{-2.0, -1.5, -1.0, -0.5, 0.0, 0.5, 1.0, 1.5, 2.0};
   const double sure_m = std::string(GetParam()).find("street") == std::string::npos ? 1 : 2;

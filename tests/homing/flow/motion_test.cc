@@ -150,6 +150,14 @@ TEST(ClassifyMotionTest, ACurveIsMoving) {
   EXPECT_EQ(MotionOf(LeftOf(RobotFlow(0.1, 0.01, FlatWall, 0.1)), {}), Motion::kMoving);
 }
 
+// The turn moves both images further than the drive does.
+TEST(ClassifyMotionTest, ADriveThatTurnsPastDistantObjectsIsMoving) {
+  const auto distant = [](double, double) { return 12.0; };
+  for (const double metres : {0.06, 0.1}) {
+    EXPECT_EQ(MotionOf(RobotFlow(metres, 0.03, distant, 0.1), {}), Motion::kMoving);
+  }
+}
+
 TEST(ClassifyMotionTest, AForwardLookingCameraThatDrivesIsMoving) {
   ObservedFlow flow;
   flow.fields[0] = FieldOf({0, 0.15, 0}, Street, 0.1, 3);
