@@ -47,6 +47,9 @@ constexpr double kSweepM = 1.5;
 constexpr double kMostSweepM = 3;
 constexpr double kSweepHeading = 0.2;
 constexpr double kSweepPeriodM = 6;
+// Past objects that are 500 m away, one metre moves the image by a step. So a robot that drove
+// kBlindM without one is held fast, or its cameras are covered or frozen. Metres.
+constexpr double kBlindM = 1;
 // A robot that is lost again before it was sure for this distance, m, begins its next search with a
 // longer sweep.
 constexpr double kSureM = 5;
@@ -91,6 +94,7 @@ Pilot::Belief Pilot::Carried(const Belief& belief, double from_s, double to_s) c
 void Pilot::Take(const PilotAnswer& answer) {
   if (answer.sequence <= last_sequence_) return;
   arrival_time_s_ = last_drive_s_;
+  if (!answer.is_standing) blind_m_ = 0;
   TakeTurn(answer);
   TakePlace(answer);
   last_sequence_ = answer.sequence;
@@ -108,7 +112,7 @@ void Pilot::TakeTurn(const PilotAnswer& answer) {
   }
   if (answer.time_s < round_s_) return;
   if (!answer.turn) {
-    if (observations == 1 && !answer.is_standing) {
+    if (observations == 1 && (!answer.is_standing || blind_m_ > kBlindM)) {
       known_.heading += Turned(answer_time_s_, answer.time_s) + drift_ * since_s;
     }
     return;
@@ -131,7 +135,8 @@ void Pilot::TakePlace(const PilotAnswer& answer) {
   if (state_ == State::kTurningRound || answer.time_s < round_s_) return;
   const double answered_m =
       answer.progress_home ? (1 - *answer.progress_home) * options_.route_m : expected.remaining_m;
-  const bool is_elsewhere = IsElsewhere(answer, expected.remaining_m - answered_m);
+  const bool is_elsewhere =
+      blind_m_ > kBlindM || IsElsewhere(answer, expected.remaining_m - answered_m);
   is_sure_ = is_sure_ && !is_elsewhere;
   PilotAnswer here = answer;
   if (is_elsewhere) here.path_offset.reset();
@@ -189,6 +194,8 @@ PilotCommand Pilot::Drive(double now_s) {
   const double driven = std::abs(motion_.speed_mps) * dt;
   unsure_m_ = is_sure_ ? 0 : unsure_m_ + driven;
   sure_m_ += is_sure_ ? driven : 0;
+  blind_m_ += driven;
+  if (blind_m_ > kBlindM) patience_left_m_ = std::min(patience_left_m_, kFirstPatienceM);
   if (state_ != State::kTurningRound) {
     patience_left_m_ = std::clamp(patience_left_m_ + (is_sure_ ? kPatiencePerM : -1) * driven, 0.0,
                                   options_.patience_m);

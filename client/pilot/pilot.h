@@ -20,7 +20,8 @@ struct PilotAnswer {
   Outcome outcome = Outcome::kAmbiguous;
   // Turned on the spot.
   bool is_turning = false;
-  // Nothing has moved enough since the reference frame: a later answer reports the turn.
+  // Nothing has moved enough since the reference frame: the place is the one before, and a later
+  // answer reports the turn. If the robot drives meanwhile, it is not believed for long.
   bool is_standing = false;
   double probability = 0;
   // Progress home: 0 at the far end, 1 at home.
@@ -150,6 +151,8 @@ class Pilot {
   double searched_m_ = 0;
   // This search first goes back so far, m.
   double back_m_ = 0;
+  // Driven since the cameras last showed a motion, m.
+  double blind_m_ = 0;
   // Driven while sure since the last search began, m.
   double sure_m_ = 0;
   // First sweep of this search, m.

@@ -239,6 +239,25 @@ TEST_F(PilotTest, WithoutATurnTheHeadingFollowsTheCommands) {
   EXPECT_GT(standing.heading(), pilot.heading());
 }
 
+// Covered or frozen cameras: the answers repeat what was known before.
+TEST_F(PilotTest, ThePlaceOfARobotWhoseCamerasShowNoMotionIsNotBelievedForLong) {
+  Pilot pilot = OnItsWay();
+  for (int i = 0; i < 200; ++i) Step(pilot, Sure(pilot.remaining_m()));
+  PilotAnswer blind = Sure(pilot.remaining_m());
+  blind.turn.reset();
+  blind.path_offset = 0.2;
+  blind.is_standing = true;
+  int driving = 0;
+  while (driving < 200 && pilot.state() == Pilot::State::kDriving) {
+    Step(pilot, blind);
+    ++driving;
+  }
+  EXPECT_LT(driving, 200);
+  EXPECT_LT(std::abs(pilot.heading()), 0.45);
+  Step(pilot, Sure(pilot.remaining_m()));
+  EXPECT_EQ(pilot.state(), Pilot::State::kDriving);
+}
+
 // The map ends there: answers stay at its last steps while the robot drives past them.
 TEST_F(PilotTest, TheLastMetreIsDrivenAsCommanded) {
   PilotOptions options;
