@@ -1,5 +1,6 @@
 #include "homing/flow/observation.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <string>
@@ -86,6 +87,22 @@ absl::Status CheckCameraSize(const cv::Size& size, const Camera& camera) {
                                                     camera.height, " px of the journey's camera"));
 }
 
+bool IsStill(const FlowField& field) {
+  return std::all_of(field.vectors.begin(), field.vectors.end(),
+                     [](const FlowVector& v) { return v.FlowX() == 0 && v.FlowY() == 0; });
+}
+
+// Sets makes_step; `otherwise` where the fields have too few vectors. Of a camera that shows
+// exactly no motion while the other one's image moves, the driver has frozen: it repeats one image,
+// and its vectors would deny the motion.
+void DecideStep(ObservedFlow& flow, bool otherwise) {
+  flow.makes_step = HasMoved(flow.fields).value_or(otherwise);
+  if (!flow.makes_step) return;
+  for (std::optional<FlowField>& field : flow.fields) {
+    if (field && field->vectors.size() >= kMinVectors && IsStill(*field)) field.reset();
+  }
+}
+
 // Copies the flow vectors; drops those that span a break.
 ObservedFlow PassOn(const Observation& observation) {
   ObservedFlow flow;
@@ -96,7 +113,7 @@ ObservedFlow PassOn(const Observation& observation) {
     flow.fields[side] = *field;
     has_field = true;
   }
-  flow.makes_step = HasMoved(flow.fields).value_or(has_field);
+  DecideStep(flow, has_field);
   return flow;
 }
 
@@ -188,7 +205,7 @@ absl::StatusOr<ObservedFlow> ObservationFlow::TrackFrames(const CheckedViews& ch
              (tracker->reference_corners() >= kMinVectors && tracker->corners() >= kMinVectors);
     }
   }
-  flow.makes_step = HasMoved(flow.fields).value_or(lost);
+  DecideStep(flow, lost);
   return flow;
 }
 

@@ -61,6 +61,20 @@ TEST(ObservationFlowTest, ACameraAbsentAtAStepGivesNoFlowUntilTheNext) {
   EXPECT_TRUE(flow.Compute(Both(Moment(3), Moment(3))).value().fields[1].has_value());
 }
 
+TEST(ObservationFlowTest, ACameraThatRepeatsItsImageWhileTheOtherOneMovesGivesNoFlow) {
+  ObservationFlow flow({});
+  const Moment frozen(0);
+  ASSERT_THAT(flow.Compute(Both(frozen, Moment(0))), IsOk());
+  for (int i = 1; i < 4; ++i) {
+    const ObservedFlow seen = flow.Compute(Both(frozen, Moment(i))).value();
+    EXPECT_TRUE(seen.makes_step);
+    EXPECT_FALSE(seen.fields[0].has_value());
+    EXPECT_TRUE(seen.fields[1].has_value());
+  }
+  const ObservedFlow alive = flow.Compute(Both(Moment(1), Moment(4))).value();
+  EXPECT_TRUE(alive.fields[0].has_value());
+}
+
 double MedianFlow(const std::optional<FlowField>& field) {
   std::vector<float> lengths;
   for (const FlowVector& v : field->vectors) lengths.push_back(static_cast<float>(v.Length()));
