@@ -6,11 +6,11 @@
 
 #include <atomic>
 #include <cstdint>
-#include <cstdlib>
 #include <functional>
 #include <limits>
 #include <utility>
 
+#include "absl/strings/numbers.h"
 #include "server/http/timed_stream.h"
 
 namespace homing::server {
@@ -24,15 +24,20 @@ constexpr std::size_t kMaxHeaders = 64 << 10;
 // Most requests of one connection.
 constexpr std::size_t kMaxRequests = 1000;
 
-// The body's size as the request declares it; a chunked body has at least one byte.
+// The body's size as the request declares it. Where the declaration is not one plain number, a
+// proxy may see another end of the body, so the largest size closes the connection.
 std::uint64_t BodyBytes(const httplib::Request& request) {
-  const std::size_t chunked = request.get_header_value_count("Transfer-Encoding");
-  if (chunked + request.get_header_value_count("Content-Length") > 1) {
-    // Two declarations: a proxy may see another end of the body, so the connection is closed.
+  const std::size_t lengths = request.get_header_value_count("Content-Length");
+  if (request.has_header("Transfer-Encoding") || lengths > 1) {
     return std::numeric_limits<std::uint32_t>::max();
   }
-  if (chunked > 0) return 1;
-  return std::strtoull(request.get_header_value("Content-Length").c_str(), nullptr, 10);
+  std::uint32_t bytes = 0;
+  const std::string length = request.get_header_value("Content-Length");
+  const bool plain = length.find_first_not_of("0123456789") == std::string::npos;
+  if (lengths == 1 && (!plain || !absl::SimpleAtoi(length, &bytes))) {
+    return std::numeric_limits<std::uint32_t>::max();
+  }
+  return bytes;
 }
 
 // Counts the connections that no thread serves yet.

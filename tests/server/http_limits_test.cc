@@ -266,7 +266,12 @@ TEST_F(HttpLimitsTest, WhatFollowsARequestThatIsNotUnderstoodIsNoRequest) {
         std::string("POST /api/v1/login HTTP/1.1\r\nHost: localhost\r\nContent-Length: 3\r\n"
                     "Transfer-Encoding: chunked\r\n\r\n0\r\n\r\n"),
         std::string("POST /api/v1/login HTTP/1.1\r\nHost: localhost\r\nContent-Length: 3\r\n"
-                    "Content-Length: 60\r\n\r\nabc")}) {
+                    "Content-Length: 60\r\n\r\nabc"),
+        std::string(
+            "POST /api/v1/login HTTP/1.1\r\nHost: localhost\r\nContent-Length: 0,60\r\n\r\n"),
+        std::string("POST /api/v1/login HTTP/1.1\r\nHost: localhost\r\nContent-Length: x\r\n\r\n"),
+        std::string("POST /api/v1/login HTTP/1.1\r\nHost: localhost\r\n"
+                    "Transfer-Encoding: chunked\r\n\r\n-1\r\n")}) {
     RawClient client(server_->metrics_address(), "127.0.0.1");
     ASSERT_TRUE(client.Send(first + kHealth));
     std::string answers;
