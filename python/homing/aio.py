@@ -9,6 +9,7 @@ from typing import (Any, AsyncIterable, AsyncIterator, Awaitable, Callable, Iter
 import grpc
 
 from . import convert
+from .answer_limit import AnswerLimit
 from .connection import Retry, Server, Trace, credentials, options, target
 from .errors import from_rpc
 from .outbox import Outbox
@@ -39,6 +40,9 @@ class _Sender:
         self._room = asyncio.Semaphore(room)
         self._changed = asyncio.Event()
         self._ended = False
+        # Answers, or the end of the stream, that are awaited, and since when.
+        self._awaited = 0
+        self._since = 0.0
         self.error: Optional[BaseException] = None
         self._task = asyncio.ensure_future(self._fill(source))
 
@@ -79,10 +83,12 @@ class _Sender:
         await asyncio.gather(self._task, return_exceptions=True)
 
 
-async def _write(call: Any, sender: _Sender, wrap: Callable[[Any], Any]) -> None:
+async def _write(call: Any, sender: _Sender, wrap: Callable[[Any], Any],
+                 limit: AnswerLimit) -> None:
     try:
         while True:
             observation = await sender.take()
+            limit.sent()
             if observation is None:
                 await call.done_writing()
                 return
@@ -137,12 +143,14 @@ class AsyncClient:
         reported = -1
         try:
             while True:
+                limit = AnswerLimit(self._server.answer_time)
+                limit.sent()  # The first answer says where to begin.
                 call = self._journeys.RecordJourney(metadata=self._trace.metadata())
                 writing: Optional[asyncio.Future] = None
                 error: Optional[grpc.RpcError] = None
                 try:
                     await call.write(config)
-                    async for response in _responses(call):
+                    async for response in limit.answers_async(call):
                         durable = response.next_sequence
                         has_reference = response.HasField("resend_from")
                         reference = response.resend_from if has_reference else durable
@@ -153,7 +161,8 @@ class AsyncClient:
                                 # A source that begins again passes over what the server has.
                                 room = window + (0 if live else durable)
                                 sender = _Sender(observations, outbox, room)
-                            writing = asyncio.ensure_future(_write(call, sender, _record_request))
+                            writing = asyncio.ensure_future(
+                                _write(call, sender, _record_request, limit))
                             continue
                         sender.acknowledge(durable, reference)
                         if reported < response.sequence < durable:
@@ -192,6 +201,7 @@ class AsyncClient:
         reported = -1
         try:
             while True:
+                limit = AnswerLimit(self._server.answer_time)
                 call = self._homing.Localize(metadata=self._trace.metadata())
                 writing: Optional[asyncio.Future] = None
                 error: Optional[grpc.RpcError] = None
@@ -199,8 +209,8 @@ class AsyncClient:
                     await call.write(homing_service_pb2.LocalizeRequest(config=config))
                     writing = asyncio.ensure_future(_write(
                         call, sender,
-                        lambda seen: homing_service_pb2.LocalizeRequest(observation=seen)))
-                    async for response in _responses(call):
+                        lambda seen: homing_service_pb2.LocalizeRequest(observation=seen), limit))
+                    async for response in limit.answers_async(call):
                         if response.sequence <= reported:
                             continue
                         sender.acknowledge(response.sequence + 1, response.sequence)
@@ -271,23 +281,3 @@ async def _cancel(task: Optional[asyncio.Future]) -> None:
     if task is not None:
         task.cancel()
         await asyncio.gather(task, return_exceptions=True)
-
-
-async def _read(call: Any) -> Optional[Any]:
-    """None: the stream ended without an error."""
-    response = await call.read()
-    if response is not grpc.aio.EOF:
-        return response
-    code = await call.code()
-    if code is grpc.StatusCode.OK:
-        return None
-    raise grpc.aio.AioRpcError(code, await call.initial_metadata(), await call.trailing_metadata(),
-                               await call.details())
-
-
-async def _responses(call: Any) -> AsyncIterator[Any]:
-    while True:
-        response = await _read(call)
-        if response is None:
-            return
-        yield response

@@ -9,6 +9,7 @@ from typing import Any, Callable, Iterable, Iterator, List, Optional, Union
 import grpc
 
 from . import convert
+from .answer_limit import AnswerLimit
 from .connection import Retry, Server, Trace, credentials, options, target
 from .errors import from_rpc
 from .outbox import Outbox
@@ -22,7 +23,9 @@ Seen = Union[Observation, View]
 class _Link:
     """The requests of one stream: gRPC reads them on its own thread."""
 
-    def __init__(self, sender: "_Sender", config: Any, wrap: Callable[[Any], Any], window: int):
+    def __init__(self, sender: "_Sender", config: Any, wrap: Callable[[Any], Any], window: int,
+                 limit: AnswerLimit):
+        self._limit = limit
         self._sender = sender
         self._config = config
         self._wrap = wrap
@@ -52,6 +55,7 @@ class _Link:
             if self._over:
                 return
             observation = self._sender.take(lambda: self._over)
+            self._limit.sent()
             if observation is None:
                 return
             yield self._wrap(observation)
@@ -159,13 +163,15 @@ class Client:
         reported = -1
         while True:
             error: Optional[grpc.RpcError] = None
+            limit = AnswerLimit(self._server.answer_time)
             link = _Link(sender, config,
                          lambda seen: journey_service_pb2.RecordJourneyRequest(observation=seen),
-                         window)
+                         window, limit)
+            limit.sent()  # The first answer says where to begin.
             stream = self._journeys.RecordJourney(link.requests(),
                                                    metadata=self._trace.metadata())
             try:
-                for response in stream:
+                for response in limit.answers(stream):
                     durable = response.next_sequence
                     has_reference = response.HasField("resend_from")
                     reference = response.resend_from if has_reference else durable
@@ -183,7 +189,7 @@ class Client:
                 if sender.is_done():
                     break
             except grpc.RpcError as caught:
-                error = caught
+                error = None if limit.expired else caught
             finally:
                 link.close()
                 stream.cancel()
@@ -207,12 +213,14 @@ class Client:
         reported = -1
         while True:
             error: Optional[grpc.RpcError] = None
+            limit = AnswerLimit(self._server.answer_time)
             link = _Link(sender, homing_service_pb2.LocalizeRequest(config=config),
-                         lambda seen: homing_service_pb2.LocalizeRequest(observation=seen), window)
+                         lambda seen: homing_service_pb2.LocalizeRequest(observation=seen), window,
+                         limit)
             link.begin()
             stream = self._homing.Localize(link.requests(), metadata=self._trace.metadata())
             try:
-                for response in stream:
+                for response in limit.answers(stream):
                     link.answered()
                     if response.sequence <= reported:
                         continue
@@ -226,7 +234,7 @@ class Client:
                 if sender.is_done():
                     break
             except grpc.RpcError as caught:
-                error = caught
+                error = None if limit.expired else caught
             finally:
                 link.close()
                 stream.cancel()

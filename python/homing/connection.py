@@ -30,6 +30,8 @@ class Server:
     token_file: Optional[str] = None
     # How long a broken link is tried again since it last worked, seconds.
     retry_for: float = 60.0
+    # Longest time without an answer, while one is awaited, until a stream counts as broken, seconds.
+    answer_time: float = 60.0
     # W3C traceparent of whoever started this program; None: the environment's TRACEPARENT, without
     # it a new trace. Each call names the trace, and its own span.
     traceparent: Optional[str] = None

@@ -19,9 +19,9 @@ class HomingError(Exception):
 
 
 def from_rpc(error: Optional[grpc.RpcError]) -> HomingError:
-    """None: the stream ended without an error before everything was answered."""
+    """None: the stream ended without an error, or fell silent, before everything was answered."""
     if error is None:
-        return HomingError("UNAVAILABLE", "the server ended the stream early")
+        return HomingError("UNAVAILABLE", "the server ended the stream early, or did not answer")
     return HomingError(error.code().name, error.details() or "")
 
 

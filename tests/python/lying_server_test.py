@@ -1,6 +1,7 @@
 """The clients against a server that answers what is not true, and one that falls silent."""
 
 import asyncio
+import time
 import unittest
 from concurrent import futures
 
@@ -21,9 +22,12 @@ COUNT = len(FRAMES)
 
 class LyingServer(journey_service_pb2_grpc.JourneyServiceServicer,
                   homing_service_pb2_grpc.HomingServiceServicer):
-    """Ends a stream without an error after `ends_after` observations; `lie` changes each answer."""
+    """Ends a stream without an error after `ends_after` observations; `lie` changes each answer;
+    `silent` streams are accepted and never answer."""
 
-    def __init__(self, ends_after=None, lie=lambda answer: None):
+    def __init__(self, ends_after=None, lie=lambda answer: None, silent=0, answer_time=60,
+                 retry_for=0.5):
+        self.silent = silent
         self.ends_after = ends_after
         self.lie = lie
         self.stored = 0
@@ -32,7 +36,8 @@ class LyingServer(journey_service_pb2_grpc.JourneyServiceServicer,
         journey_service_pb2_grpc.add_JourneyServiceServicer_to_server(self, self.server)
         homing_service_pb2_grpc.add_HomingServiceServicer_to_server(self, self.server)
         port = self.server.add_insecure_port("127.0.0.1:0")
-        self.address = homing.Server(address=f"127.0.0.1:{port}", retry_for=0.5)
+        self.address = homing.Server(address=f"127.0.0.1:{port}", retry_for=retry_for,
+                                     answer_time=answer_time)
 
     def __enter__(self):
         self.server.start()
@@ -48,7 +53,13 @@ class LyingServer(journey_service_pb2_grpc.JourneyServiceServicer,
         self.finished = True
         return journey_service_pb2.FinishJourneyResponse()
 
+    def fall_silent(self, context):
+        self.silent -= 1
+        while self.silent >= 0 and context.is_active():
+            time.sleep(0.01)
+
     def RecordJourney(self, requests, context):
+        self.fall_silent(context)
         next(requests)
         answer = journey_service_pb2.RecordJourneyResponse
         yield answer(next_sequence=self.stored, resend_from=self.stored)
@@ -62,6 +73,7 @@ class LyingServer(journey_service_pb2_grpc.JourneyServiceServicer,
             yield truth
 
     def Localize(self, requests, context):
+        self.fall_silent(context)
         next(requests)
         for count, request in enumerate(requests, 1):
             if count == self.ends_after:
@@ -122,6 +134,14 @@ class LyingServerTest(unittest.TestCase):
         for run in LOCALISING:
             with LyingServer(lie=lambda answer: setattr(answer, "outcome", 77)) as liar:
                 self.assertEqual({answer.outcome for answer in run(liar)}, {Outcome.UNKNOWN_PLACE})
+
+    def test_a_server_that_never_answers_is_a_lost_link(self):
+        for run in RECORDING + LOCALISING:
+            with LyingServer(silent=1, answer_time=0.5, retry_for=30) as liar:
+                self.assertEqual([answer.sequence for answer in run(liar)], list(range(COUNT)))
+            with LyingServer(silent=1000, answer_time=0.2) as liar:
+                with self.assertRaisesRegex(homing.HomingError, "did not answer"):
+                    run(liar)
 
     def test_a_silent_server_is_noticed(self):
         for address in ("127.0.0.1:1", "127.0.0.1:1,127.0.0.1:2"):
