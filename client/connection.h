@@ -37,6 +37,9 @@ struct ConnectionOptions {
   std::chrono::milliseconds connect_timeout{5000};
   // Time for which a broken connection is retried, since it last worked.
   std::chrono::milliseconds retry_for{60000};
+  // Longest time without an answer, while one is awaited, until a stream counts as broken: enough
+  // for the largest image over a slow radio link.
+  std::chrono::milliseconds answer_time{60000};
 };
 
 bool UsesTls(const ConnectionOptions& options);

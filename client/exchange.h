@@ -12,6 +12,7 @@
 
 #include "absl/status/status.h"
 #include "client/answer_check.h"
+#include "client/answer_limit.h"
 #include "client/resend_buffer.h"
 #include "client/rpc_status.h"
 #include "homing/base/mutex.h"
@@ -27,8 +28,8 @@ class Exchange {
   using Fill = std::function<void(const v1::Observation&, Request*)>;
   using OnAnswer = std::function<absl::Status(const Response&)>;
 
-  Exchange(grpc::ClientContext* context, Stream* stream, int window)
-      : context_(context), stream_(stream), window_(window) {}
+  Exchange(grpc::ClientContext* context, Stream* stream, AnswerLimit* limit, int window)
+      : context_(context), stream_(stream), limit_(limit), window_(window) {}
 
   // Sends to the end of `buffer`. UNAVAILABLE: the stream ended before that. Whether all were
   // answered is for the caller to check.
@@ -50,7 +51,9 @@ class Exchange {
   void ReadAnswers(const OnAnswer& on_answer) {
     Response response;
     while (stream_->Read(&response)) {
+      limit_->Answered();
       if (const absl::Status status = on_answer(response); !status.ok()) Fail(status);
+      limit_->Continue();
       const MutexLock lock(mutex_);
       --open_;
       changed_.NotifyAll();
@@ -68,6 +71,7 @@ class Exchange {
         source_failed_ = !next.ok();
         if (source_failed_) SetError(next.status());
         ended_ = true;
+        limit_->Await();
         stream_->WritesDone();
         return;
       }
@@ -77,6 +81,7 @@ class Exchange {
         const MutexLock lock(mutex_);
         ++open_;
       }
+      limit_->Await();
       if (!stream_->Write(request)) return;
     }
   }
@@ -100,6 +105,7 @@ class Exchange {
 
   grpc::ClientContext* context_;
   Stream* stream_;
+  AnswerLimit* limit_;
   const int window_;
   Mutex mutex_;
   ConditionVariable changed_;

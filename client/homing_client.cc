@@ -30,6 +30,7 @@ absl::Status HomingClient::Attempt(const LocalizingOptions& options, ResendBuffe
   grpc::ClientContext context;
   const std::stop_callback cancel(stop, [&context] { context.TryCancel(); });
   const auto stream = stub_->Localize(&context);
+  AnswerLimit limit(&context, connection_->options().answer_time);
   v1::LocalizeRequest config;
   *config.mutable_config() = options.config;
   const std::int64_t shift = buffer->RewindAll();
@@ -37,7 +38,7 @@ absl::Status HomingClient::Attempt(const LocalizingOptions& options, ResendBuffe
     *config.mutable_config()->mutable_prior() = prior->second;
   }
   stream->Write(config);
-  Exchange<v1::LocalizeRequest, v1::LocalizeResponse> exchange(&context, stream.get(),
+  Exchange<v1::LocalizeRequest, v1::LocalizeResponse> exchange(&context, stream.get(), &limit,
                                                                options.window);
   const auto fill = [shift](const v1::Observation& observation, v1::LocalizeRequest* request) {
     *request->mutable_observation() = observation;
@@ -57,7 +58,7 @@ absl::Status HomingClient::Attempt(const LocalizingOptions& options, ResendBuffe
     *progress = true;
     return on_answer(answer);
   };
-  HOMING_RETURN_IF_ERROR(exchange.Run(buffer, fill, take));
+  HOMING_RETURN_IF_ERROR(limit.Explain(exchange.Run(buffer, fill, take)));
   return reported_ + 1 < buffer->sent() ? EndedEarly() : absl::OkStatus();
 }
 

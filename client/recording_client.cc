@@ -33,18 +33,23 @@ absl::Status RecordingClient::Attempt(ResendBuffer* buffer, const OnAnswer& on_a
   grpc::ClientContext context;
   const std::stop_callback cancel(stop, [&context] { context.TryCancel(); });
   const auto stream = stub_->RecordJourney(&context);
+  AnswerLimit limit(&context, connection_->options().answer_time);
+  limit.Await();
   if (absl::Status status = Begin(stream.get(), buffer); !status.ok()) {
     context.TryCancel();
-    return status;
+    return limit.Explain(status);
   }
+  limit.Answered();
+  limit.Continue();
   Exchange<v1::RecordJourneyRequest, v1::RecordJourneyResponse> exchange(&context, stream.get(),
-                                                                         options_.window);
+                                                                         &limit, options_.window);
   const auto fill = [](const v1::Observation& observation, v1::RecordJourneyRequest* request) {
     *request->mutable_observation() = observation;
   };
-  HOMING_RETURN_IF_ERROR(exchange.Run(buffer, fill, [&](const v1::RecordJourneyResponse& response) {
+  const auto answer = [&](const v1::RecordJourneyResponse& response) {
     return Answer(response, buffer, on_answer, progress);
-  }));
+  };
+  HOMING_RETURN_IF_ERROR(limit.Explain(exchange.Run(buffer, fill, answer)));
   return summary_.next_sequence < buffer->sent() ? EndedEarly() : absl::OkStatus();
 }
 

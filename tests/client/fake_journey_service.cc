@@ -4,6 +4,8 @@
 #include <grpcpp/server_builder.h>
 
 #include <algorithm>
+#include <chrono>
+#include <thread>
 
 #include "homing/base/mutex.h"
 
@@ -11,6 +13,12 @@ namespace homing::client {
 namespace {
 
 const grpc::Status kLinkBroken(grpc::StatusCode::UNAVAILABLE, "link broken by the test");
+
+// The client has given up.
+grpc::Status AwaitCancellation(const grpc::ServerContext& context) {
+  while (!context.IsCancelled()) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  return kLinkBroken;
+}
 
 }  // namespace
 
@@ -46,8 +54,9 @@ grpc::Status FakeJourneyService::Broken() const {
   return faults_.breaks_silently ? grpc::Status::OK : kLinkBroken;
 }
 
-grpc::Status FakeJourneyService::RecordJourney(grpc::ServerContext*, RecordStream* stream) {
+grpc::Status FakeJourneyService::RecordJourney(grpc::ServerContext* context, RecordStream* stream) {
   const int link = BeginLink();
+  if (link < faults_.silent_links) return AwaitCancellation(*context);
   const int break_after = BreakAfter(link);
   if (!faults_.refuse.ok()) return faults_.refuse;
   v1::RecordJourneyRequest request;
@@ -78,9 +87,11 @@ grpc::Status FakeJourneyService::RecordJourney(grpc::ServerContext*, RecordStrea
 }
 
 grpc::Status FakeJourneyService::Localize(
-    grpc::ServerContext*,
+    grpc::ServerContext* context,
     grpc::ServerReaderWriter<v1::LocalizeResponse, v1::LocalizeRequest>* stream) {
-  const int break_after = BreakAfter(BeginLink());
+  const int link = BeginLink();
+  if (link < faults_.silent_links) return AwaitCancellation(*context);
+  const int break_after = BreakAfter(link);
   v1::LocalizeRequest request;
   stream->Read(&request);
   int received = 0;

@@ -28,6 +28,8 @@ struct Faults {
   int look_back = 1;
   // A link ends without an error instead of breaking.
   bool breaks_silently = false;
+  // So many links are accepted, and never answer.
+  int silent_links = 0;
   // Nothing is stored.
   bool forgets = false;
   // Changes each answer.

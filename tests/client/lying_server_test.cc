@@ -26,10 +26,11 @@ class LyingServerTest : public ::testing::Test {
     faults.breaks_silently = true;
     return faults;
   }
-  static Connection Connect(const FakeServer& server) {
+  Connection Connect(const FakeServer& server) const {
     ConnectionOptions options;
     options.address = server.address();
-    options.retry_for = std::chrono::milliseconds(300);
+    options.retry_for = retry_for_;
+    options.answer_time = answer_time_;
     return *Connection::Open(options);
   }
   absl::Status Record(const Faults& faults) {
@@ -57,6 +58,8 @@ class LyingServerTest : public ::testing::Test {
     });
   }
 
+  std::chrono::milliseconds retry_for_{300};
+  std::chrono::milliseconds answer_time_{60000};
   std::int64_t stored_ = 0;
   int answers_ = 0;
 };
@@ -67,6 +70,24 @@ TEST_F(LyingServerTest, AStreamThatEndsEarlyWithoutAnErrorIsALostLink) {
   answers_ = 0;
   EXPECT_THAT(Localize(EndsEarly()), IsOk());
   EXPECT_EQ(answers_, kCount);
+}
+
+TEST_F(LyingServerTest, AServerThatNeverAnswersIsALostLink) {
+  answer_time_ = std::chrono::milliseconds(500);
+  retry_for_ = std::chrono::seconds(30);
+  Faults once;
+  once.silent_links = 1;
+  EXPECT_THAT(Record(once), IsOk());
+  EXPECT_EQ(stored_, kCount);
+  answers_ = 0;
+  EXPECT_THAT(Localize(once), IsOk());
+  EXPECT_EQ(answers_, kCount);
+  Faults always;
+  retry_for_ = std::chrono::milliseconds(300);
+  always.silent_links = 1000;
+  for (const absl::Status& status : {Record(always), Localize(always)}) {
+    EXPECT_THAT(status, StatusIs(absl::StatusCode::kUnavailable, HasSubstr("did not answer")));
+  }
 }
 
 TEST_F(LyingServerTest, WhatIsNotAcknowledgedIsNotRecorded) {
