@@ -40,9 +40,6 @@ class _Sender:
         self._room = asyncio.Semaphore(room)
         self._changed = asyncio.Event()
         self._ended = False
-        # Answers, or the end of the stream, that are awaited, and since when.
-        self._awaited = 0
-        self._since = 0.0
         self.error: Optional[BaseException] = None
         self._task = asyncio.ensure_future(self._fill(source))
 
