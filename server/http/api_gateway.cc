@@ -8,6 +8,7 @@
 #include <grpcpp/impl/rpc_method.h>
 
 #include <chrono>
+#include <vector>
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_replace.h"
@@ -78,6 +79,23 @@ ApiAnswer ToAnswer(const grpc::Status& status) {
 std::string ToJson(const pb::Message& message) {
   std::string json;
   if (!pb::util::MessageToJsonString(message, &json).ok()) return "{}";
+  return json;
+}
+
+std::string ApiGateway::ToSharedJson(const grpc::ByteBuffer& bytes, pb::Message* message) const {
+  std::vector<grpc::Slice> slices;
+  if (!bytes.Dump(&slices).ok()) return "{}";
+  std::string serialized;
+  for (const grpc::Slice& slice : slices) {
+    serialized.append(reinterpret_cast<const char*>(slice.begin()), slice.size());
+  }
+  const MutexLock lock(mutex_);
+  auto& [last, json] = last_[message->GetDescriptor()];
+  if (json.empty() || last != serialized) {
+    if (!message->ParseFromString(serialized)) return "{}";
+    last = std::move(serialized);
+    json = ToJson(*message);
+  }
   return json;
 }
 

@@ -5,11 +5,15 @@
 
 #include <google/protobuf/message.h>
 #include <grpcpp/channel.h>
+#include <grpcpp/support/byte_buffer.h>
 
+#include <map>
 #include <memory>
 #include <string>
+#include <utility>
 
 #include "absl/status/status.h"
+#include "homing/base/mutex.h"
 
 namespace grpc {
 class ClientContext;
@@ -47,10 +51,18 @@ class ApiGateway {
   // `method` is "JourneyService/GetJourney"; streams are refused.
   ApiAnswer Call(const std::string& method, const std::string& json, const ApiCaller& caller) const;
 
+  // The JSON of a serialized message, which `message` is parsed from. That of the last one of each
+  // type is kept: all open consoles are sent the same message at nearly the same time.
+  std::string ToSharedJson(const grpc::ByteBuffer& bytes, google::protobuf::Message* message) const;
+
   const std::shared_ptr<grpc::Channel>& channel() const { return channel_; }
 
  private:
   const std::shared_ptr<grpc::Channel> channel_;
+  mutable Mutex mutex_;
+  // By type: the bytes of the last message, and its JSON.
+  mutable std::map<const google::protobuf::Descriptor*, std::pair<std::string, std::string>> last_
+      HOMING_GUARDED_BY(mutex_);
 };
 
 }  // namespace homing::server

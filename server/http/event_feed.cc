@@ -1,9 +1,12 @@
 #include "server/http/event_feed.h"
 
+#include <grpcpp/support/byte_buffer.h>
+#include <grpcpp/support/sync_stream.h>
+
 #include <utility>
 
 #include "absl/strings/str_cat.h"
-#include "homing/v1/fleet_service.grpc.pb.h"
+#include "homing/v1/fleet_service.pb.h"
 
 namespace homing::server {
 namespace {
@@ -16,19 +19,19 @@ constexpr int kRetryMs = 500;
 
 EventFeed::EventFeed(const ApiGateway& gateway, const ApiCaller& caller,
                      const std::vector<std::string>& robots)
-    : channel_(gateway.channel()) {
+    : gateway_(gateway) {
   events_.push_back(absl::StrCat("retry: ", kRetryMs, "\n\n"));
   threads_.emplace_back([this, caller] {
-    Follow<v1::WatchFleetResponse>(
-        "fleet", caller, [](auto* stub, auto* context) { return stub->WatchFleet(context, {}); });
+    v1::WatchFleetResponse response;
+    Follow("fleet", "/homing.v1.FleetService/WatchFleet", caller, v1::WatchFleetRequest(),
+           &response);
   });
   for (const std::string& robot : robots) {
     threads_.emplace_back([this, caller, robot] {
-      Follow<v1::WatchRobotResponse>("robot", caller, [&](auto* stub, auto* context) {
-        v1::WatchRobotRequest request;
-        request.set_name(robot);
-        return stub->WatchRobot(context, request);
-      });
+      v1::WatchRobotRequest request;
+      request.set_name(robot);
+      v1::WatchRobotResponse response;
+      Follow("robot", "/homing.v1.FleetService/WatchRobot", caller, request, &response);
     });
   }
 }
@@ -45,8 +48,9 @@ void EventFeed::Stop() {
   changed_.NotifyAll();
 }
 
-template <typename Response, typename Start>
-void EventFeed::Follow(const char* event, const ApiCaller& caller, Start start) {
+void EventFeed::Follow(const char* event, const char* method, const ApiCaller& caller,
+                       const google::protobuf::Message& request,
+                       google::protobuf::Message* response) {
   grpc::ClientContext* context = nullptr;
   {
     const MutexLock lock(mutex_);
@@ -54,13 +58,14 @@ void EventFeed::Follow(const char* event, const ApiCaller& caller, Start start) 
     context = &contexts_.emplace_back();
   }
   caller.AddTo(context);
-  const auto stub = v1::FleetService::NewStub(channel_);
-  const auto reader = start(stub.get(), context);
-  Response response;
-  while (reader->Read(&response)) {
-    if (!Push(absl::StrCat("event: ", event, "\ndata: ", ToJson(response), "\n\n"))) {
-      context->TryCancel();
-    }
+  const grpc::internal::RpcMethod call(method, grpc::internal::RpcMethod::SERVER_STREAMING);
+  const std::unique_ptr<grpc::ClientReader<grpc::ByteBuffer>> reader(
+      grpc::internal::ClientReaderFactory<grpc::ByteBuffer>::Create(gateway_.channel().get(), call,
+                                                                    context, request));
+  grpc::ByteBuffer bytes;
+  while (reader->Read(&bytes)) {
+    const std::string json = gateway_.ToSharedJson(bytes, response);
+    if (!Push(absl::StrCat("event: ", event, "\ndata: ", json, "\n\n"))) context->TryCancel();
   }
   Push(absl::StrCat("event: end\ndata: ", ToAnswer(reader->Finish()).json, "\n\n"));
   Stop();

@@ -22,6 +22,7 @@ namespace homing::server {
 // skips states.
 class EventFeed {
  public:
+  // The gateway must outlive the feed.
   EventFeed(const ApiGateway& gateway, const ApiCaller& caller,
             const std::vector<std::string>& robots);
   // Ends the streams and waits for them.
@@ -34,11 +35,12 @@ class EventFeed {
   void Stop();
 
  private:
-  template <typename Response, typename Start>
-  void Follow(const char* event, const ApiCaller& caller, Start start);
+  // Reads the stream of FleetService's `method` to its end.
+  void Follow(const char* event, const char* method, const ApiCaller& caller,
+              const google::protobuf::Message& request, google::protobuf::Message* response);
   bool Push(std::string text);
 
-  const std::shared_ptr<grpc::Channel> channel_;
+  const ApiGateway& gateway_;
   Mutex mutex_;
   ConditionVariable changed_;
   std::deque<std::string> events_ HOMING_GUARDED_BY(mutex_);

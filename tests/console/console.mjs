@@ -111,15 +111,20 @@ try {
   check('eight tabs at once', shown.every(Boolean));
   for (const tab of tabs) await tab.close();
 
-  // What ten consoles cost the server, in seconds of processor a second.
+  // What ten consoles cost the server, in seconds of processor a second: the middle one of three measurements.
   await page.goto('about:blank');
   const used = () => { const f = readFileSync(`/proc/${child.pid}/stat`, 'utf8').split(') ')[1].split(' '); return (Number(f[11]) + Number(f[12])) / 100; };
   const cost = async (s) => { const begin = used(); await pause(s * 1000); return (used() - begin) / s; };
-  const alone = await cost(10);
-  const feeds = Array.from({ length: 10 }, (_, i) => http.get(`${url}/events?robot=robots/${robot(i + 1)}`, { agent: false }, (a) => a.resume()));
-  await pause(1000);
-  const watched = await cost(10);
-  for (const feed of feeds) feed.destroy();
+  const pairs = [];
+  for (let i = 0; i < 3; ++i) {
+    const alone = await cost(6);
+    const feeds = Array.from({ length: 10 }, (_, i) => http.get(`${url}/events?robot=robots/${robot(i + 1)}`, { agent: false }, (a) => a.resume()));
+    await pause(1000);
+    pairs.push({ alone, watched: await cost(6) });
+    for (const feed of feeds) feed.destroy();
+    await pause(1000);
+  }
+  const { alone, watched } = pairs.sort((a, b) => a.watched - a.alone - (b.watched - b.alone))[1];
   check('ten consoles cost under 5 % of a core', watched - alone < 0.05, `${(100 * alone).toFixed(1)} % without, ${(100 * watched).toFixed(1)} % with them`);
   await visit('fleet', 'tbody tr');
 

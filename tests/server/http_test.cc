@@ -3,8 +3,10 @@
 
 #include <nlohmann/json.hpp>
 
+#include "homing/v1/fleet_service.pb.h"
 #include "server/access/certificate_folder.h"
 #include "server/access/token_book.h"
+#include "server/http/api_gateway.h"
 #include "server/http/request_guard.h"
 #include "tests/server/server_fixture.h"
 #include "tests/support/journey_file.h"
@@ -180,6 +182,25 @@ TEST(RequestGuardTest, HostsOriginsAndCookies) {
   EXPECT_FALSE(IsSameOrigin("http://a:2", "a:1"));
   EXPECT_EQ(CookieOf("x=1; homing_session=abc", "homing_session"), "abc");
   EXPECT_EQ(CookieOf("xhoming_session=abc", "homing_session"), "");
+}
+
+// Kept texts are those of a type: the bytes of one robot are also those of a fleet of one.
+TEST(ApiGatewayTest, AKeptTextIsThatOfItsMessage) {
+  const ApiGateway gateway(nullptr);
+  v1::WatchFleetResponse fleet;
+  v1::WatchRobotResponse robot;
+  const auto text_of = [&](const std::string& name, google::protobuf::Message* message) {
+    robot.mutable_robot()->set_name(name);
+    const std::string serialized = robot.SerializeAsString();
+    const grpc::Slice slice(serialized.data(), serialized.size());
+    return gateway.ToSharedJson(grpc::ByteBuffer(&slice, 1), message);
+  };
+  for (int times = 0; times < 2; ++times) {
+    EXPECT_EQ(text_of("robots/a", &fleet), R"({"robots":[{"name":"robots/a"}]})");
+    EXPECT_EQ(text_of("robots/a", &robot), R"({"robot":{"name":"robots/a"}})");
+    EXPECT_EQ(text_of("robots/b", &fleet), R"({"robots":[{"name":"robots/b"}]})");
+    EXPECT_EQ(text_of("robots/b", &robot), R"({"robot":{"name":"robots/b"}})");
+  }
 }
 
 }  // namespace
