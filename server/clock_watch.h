@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <vector>
 
 namespace homing::server {
 
@@ -16,14 +17,22 @@ class ClockWatch {
   static constexpr std::int64_t kEarliestNs = 1'767'225'600'000'000'000;
 
   // Returns the earliest creation time whose age can be trusted, nanoseconds since the epoch; in
-  // the first ten minutes there is none. Call it periodically, with both clocks read at the same
-  // moment.
+  // the first ten minutes, and in those after a jump ahead was taken back, there is none. Call it
+  // periodically, with both clocks read at the same moment.
   std::int64_t TrustedSince(std::int64_t wall_ns, std::chrono::steady_clock::time_point steady);
 
  private:
+  // As they were before a jump ahead.
+  struct Jump {
+    std::chrono::nanoseconds offset;
+    std::int64_t since_ns;
+  };
+
   bool begun_ = false;
-  std::int64_t wall_ns_ = 0;
-  std::chrono::steady_clock::time_point steady_;
+  // Of the wall clock against the steady one.
+  std::chrono::nanoseconds offset_{};
+  // Those that were not taken back; each began ahead of the one before it.
+  std::vector<Jump> jumps_;
   std::chrono::steady_clock::time_point started_;
   std::int64_t since_ns_ = kEarliestNs;
 };

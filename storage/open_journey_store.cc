@@ -74,10 +74,11 @@ absl::StatusOr<std::unique_ptr<JourneyStore>> OpenJourneyStore(const StoreOption
   if (IsPostgresUrl(options.url)) return OpenPostgresStore(options);
   HOMING_ASSIGN_OR_RETURN(const std::string path, ParseDatabaseUrl(options.url));
   if (options.read_only && path != kInMemory) return OpenReadOnly(path, options);
+  // Released last.
+  std::unique_ptr<StoreLock> lock;
   HOMING_ASSIGN_OR_RETURN(
       std::unique_ptr<Connection> writer,
       Connection::Open(path, Connection::Access::kReadWrite, options.busy_timeout_ms));
-  std::unique_ptr<StoreLock> lock;
   std::unique_ptr<SpaceReserve> reserve;
   if (path != kInMemory) {
     HOMING_ASSIGN_OR_RETURN(lock, StoreLock::Take(path));

@@ -128,23 +128,49 @@ bool ObservationBuffer::Await() {
   return !stopped_;
 }
 
-absl::Status ObservationBuffer::Align(std::int64_t durable) {
+absl::Status ObservationBuffer::Renumber(std::int64_t first, std::int64_t shift) {
+  if (file_) HOMING_RETURN_IF_ERROR(file_->Renumber(first, shift));
+  for (StoredObservation& observation : memory_) {
+    if (observation.sequence >= first) observation.sequence += shift;
+  }
+  if (file_end_ > first) file_end_ += shift;
+  end_ += shift;
+  opened_at_ += shift;
+  return absl::OkStatus();
+}
+
+absl::StatusOr<std::int64_t> ObservationBuffer::CloseGap(std::int64_t durable) {
+  // The reference may stand alone before the others.
+  HOMING_ASSIGN_OR_RETURN(const auto first, Find(std::max(durable, durable_)));
+  if (!file_ || !first || first->sequence <= durable) return 0;
+  v1::Observation marked;
+  if (!marked.ParseFromString(first->bytes)) {
+    return absl::DataLossError(absl::StrCat("observation ", first->sequence, " is damaged"));
+  }
+  // In the file: a later process may send it.
+  marked.set_break_before(true);
+  const StoredObservation again[] = {{first->sequence, marked.SerializeAsString()}};
+  HOMING_RETURN_IF_ERROR(file_->Append(again));
+  HOMING_RETURN_IF_ERROR(file_->DropBefore(first->sequence, first->sequence).status());
+  HOMING_RETURN_IF_ERROR(Renumber(first->sequence, durable - first->sequence));
+  HOMING_ASSIGN_OR_RETURN(const ObservationFile::Extent extent, file_->Measure());
+  file_bytes_ = extent.bytes;
+  return first->sequence - durable;
+}
+
+absl::StatusOr<std::int64_t> ObservationBuffer::Align(std::int64_t durable) {
   const MutexLock lock(mutex_);
-  const std::int64_t shift = durable > opened_at_ ? durable - opened_at_ : 0;
-  if (shift > 0) {
-    if (file_) HOMING_RETURN_IF_ERROR(file_->Renumber(opened_at_, shift));
-    for (StoredObservation& observation : memory_) {
-      if (observation.sequence >= opened_at_) observation.sequence += shift;
-    }
-    if (file_end_ > opened_at_) file_end_ += shift;
-    end_ += shift;
-    opened_at_ += shift;
+  std::int64_t missing = 0;
+  if (durable > opened_at_) {
+    HOMING_RETURN_IF_ERROR(Renumber(opened_at_, durable - opened_at_));
+  } else {
+    HOMING_ASSIGN_OR_RETURN(missing, CloseGap(durable));
   }
   durable_ = std::clamp(durable, std::int64_t{0}, end_);
   cursor_ = durable_;
   // The camera may have moved since the previous process.
-  if (opened_at_ > 0) break_at_ = opened_at_;
-  return absl::OkStatus();
+  if (opened_at_ > 0) breaks_.insert(opened_at_);
+  return missing;
 }
 
 absl::StatusOr<std::optional<StoredObservation>> ObservationBuffer::Find(
@@ -170,7 +196,7 @@ absl::StatusOr<std::optional<v1::Observation>> ObservationBuffer::Next() {
     return absl::DataLossError(absl::StrCat("observation ", cursor_, " is not in the buffer"));
   }
   observation.set_sequence(found->sequence);
-  if (found->sequence == break_at_) observation.set_break_before(true);
+  if (breaks_.contains(found->sequence)) observation.set_break_before(true);
   cursor_ = found->sequence + 1;
   return observation;
 }
@@ -188,7 +214,7 @@ bool ObservationBuffer::Seek(std::int64_t sequence) {
 void ObservationBuffer::ContinueAt(std::int64_t sequence) {
   const MutexLock lock(mutex_);
   cursor_ = sequence;
-  break_at_ = sequence;
+  breaks_.insert(sequence);
 }
 
 }  // namespace homing::robot

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <deque>
 #include <optional>
+#include <set>
 #include <string>
 
 #include "client/observation_stream.h"
@@ -42,8 +43,10 @@ class ObservationBuffer : public client::ObservationStream {
   bool Await();
 
   // Renumbers for a server that has all observations before `durable`: those added since the buffer
-  // was opened are new, whatever their number was. Call it once, before the first Next.
-  absl::Status Align(std::int64_t durable);
+  // was opened are new, whatever their number was. If the first ones that the server needs are not
+  // there any more (it lost confirmed ones), the others follow at once, behind a break. Returns how
+  // many are missing. Call it once, before the first Next.
+  absl::StatusOr<std::int64_t> Align(std::int64_t durable);
 
   // Waits for the next one. std::nullopt: closed.
   absl::StatusOr<std::optional<v1::Observation>> Next() override;
@@ -56,6 +59,10 @@ class ObservationBuffer : public client::ObservationStream {
 
   std::int64_t pending_count() const HOMING_REQUIRES(mutex_) { return end_ - durable_; }
   absl::Status WriteToFile() HOMING_REQUIRES(mutex_);
+  // Adds `shift` to the numbers from `first` on; those include that of opened_at_.
+  absl::Status Renumber(std::int64_t first, std::int64_t shift) HOMING_REQUIRES(mutex_);
+  // As Align, for a server that needs `durable`, which is not new.
+  absl::StatusOr<std::int64_t> CloseGap(std::int64_t durable) HOMING_REQUIRES(mutex_);
   // The first observation with at least this sequence.
   absl::StatusOr<std::optional<StoredObservation>> Find(std::int64_t sequence) const
       HOMING_REQUIRES(mutex_);
@@ -73,9 +80,9 @@ class ObservationBuffer : public client::ObservationStream {
   std::int64_t end_ HOMING_GUARDED_BY(mutex_) = 0;
   std::int64_t opened_at_ HOMING_GUARDED_BY(mutex_) = 0;
   std::int64_t durable_ HOMING_GUARDED_BY(mutex_) = 0;
-  // The number that Next returns next, and the one that is marked as a break.
+  // The number that Next returns next, and those that are marked as breaks.
   std::int64_t cursor_ HOMING_GUARDED_BY(mutex_) = 0;
-  std::int64_t break_at_ HOMING_GUARDED_BY(mutex_) = -1;
+  std::set<std::int64_t> breaks_ HOMING_GUARDED_BY(mutex_);
   // An observation was dropped: flow before the next one is missing.
   bool dropped_ HOMING_GUARDED_BY(mutex_) = false;
   bool closed_ HOMING_GUARDED_BY(mutex_) = false;

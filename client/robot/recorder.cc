@@ -5,6 +5,7 @@
 #include <thread>
 #include <utility>
 
+#include "absl/strings/str_cat.h"
 #include "client/journey_client.h"
 #include "client/recording_client.h"
 #include "client/robot/conversion.h"
@@ -99,7 +100,8 @@ class __attribute__((visibility("hidden"))) Recorder::State {
     const std::stop_token stop = stop_.get_token();
     client::JourneyClient journeys(&connection_, stop);
     HOMING_ASSIGN_OR_RETURN(const v1::Journey journey, journeys.Create(request_));
-    HOMING_RETURN_IF_ERROR(buffer_->Align(journey.next_sequence()));
+    HOMING_ASSIGN_OR_RETURN(const std::int64_t missing, buffer_->Align(journey.next_sequence()));
+    if (missing > 0) TellOfGap(journey.next_sequence(), missing);
     client::RecordingOptions recording;
     recording.journey = options_.journey;
     recording.writer_id = options_.writer;
@@ -115,6 +117,15 @@ class __attribute__((visibility("hidden"))) Recorder::State {
             .status());
     if (stop.stop_requested()) return absl::CancelledError("stopped");
     return journeys.Finish(options_.journey, options_.writer).status();
+  }
+
+  void TellOfGap(std::int64_t durable, std::int64_t missing) const {
+    if (!options_.on_message) return;
+    options_.on_message(absl::StrCat(
+        "the server has only the first ", durable, " observations of ", options_.journey,
+        "; at least ", missing,
+        " that it had confirmed are lost. It was probably restored from an older backup. The "
+        "recording continues with a gap in the map; for a map without one record a new journey"));
   }
 
   absl::Status Take(const v1::RecordJourneyResponse& answer) {

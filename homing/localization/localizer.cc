@@ -140,7 +140,8 @@ void Localizer::ReportPose(const ObservedFlow& flow, Localization& result) {
       report_heading();
     }
   } else if (!result.position.step) {
-    if (path_.TurnAlone(flow)) report_heading();
+    // Where the place was still known before this observation, the pose has its turn already.
+    if (path_.has_motion() || path_.TurnAlone(flow)) report_heading();
     path_.Forget();
   } else if (path_.has_motion()) {
     report_heading();

@@ -28,12 +28,20 @@ constexpr char kJsonType[] = "application/json; charset=utf-8";
 constexpr char kContentPolicy[] =
     "default-src 'none'; script-src 'self'; worker-src 'self'; style-src 'self'; img-src 'self'; "
     "connect-src 'self'; form-action 'self'; base-uri 'none'; frame-ancestors 'none'";
+// Its form is sent to the address of the page, with the link's secret.
+constexpr char kLinkPage[] =
+    "<!doctype html><html lang=\"en\"><meta charset=\"utf-8\"><meta name=\"viewport\" "
+    "content=\"width=device-width\"><title>Homing</title><link rel=\"icon\" href=\"/icon.svg\">"
+    "<link rel=\"stylesheet\" href=\"/app.css\"><main class=\"login\"><h1>Homing</h1>"
+    "<form class=\"card\" method=\"post\">"
+    "<button class=\"primary\" autofocus>Log in</button></form></main></html>\n";
 
-void SetSafeHeaders(Response* response) {
+void SetSafeHeaders(const Request& request, Response* response) {
   response->set_header("Content-Security-Policy", kContentPolicy);
   response->set_header("X-Content-Type-Options", "nosniff");
   response->set_header("X-Frame-Options", "DENY");
-  response->set_header("Referrer-Policy", "no-referrer");
+  // With "no-referrer" a browser sends the form of the page without its origin.
+  response->set_header("Referrer-Policy", request.path == "/login" ? "same-origin" : "no-referrer");
   response->set_header("Cross-Origin-Opener-Policy", "same-origin");
   response->set_header("Cross-Origin-Resource-Policy", "same-origin");
 }
@@ -64,7 +72,7 @@ void Send(Response* response, const ApiAnswer& answer) {
 // misled.
 bool ConsoleServer::State::Refuse(const Request& request, Response* response) const {
   if (request.path == "/metrics" || request.path == "/healthz") return false;
-  SetSafeHeaders(response);
+  SetSafeHeaders(request, response);
   const std::string host = request.get_header_value("Host");
   absl::Status status;
   if (!IsKnownHost(host, options.hosts)) {
@@ -128,6 +136,13 @@ void ConsoleServer::State::LogIn(const Request& request, Response* response) {
   const int life = static_cast<int>(std::chrono::seconds(SessionBook::kLife).count());
   response->set_header("Set-Cookie", CookieHeader(request, *cookie, life));
   Send(response, {200, "{}"});
+}
+
+// Programs that look at links (mail scanners, previews in chats) send GET or HEAD: these must not
+// use the link up.
+void ConsoleServer::State::ShowLink(const Request& /*request*/, Response* response) {
+  response->set_header("Cache-Control", "no-store");
+  Send(response, kLinkPage, "text/html; charset=utf-8");
 }
 
 void ConsoleServer::State::FollowLink(const Request& request, Response* response) {

@@ -36,7 +36,8 @@ void ConsoleServer::State::Route() {
     response.status = well ? 200 : 503;
     Send(&response, well ? "ok\n" : "not serving\n", "text/plain; charset=utf-8");
   });
-  server.Get("/login", to(&State::FollowLink));
+  server.Get("/login", to(&State::ShowLink));
+  server.Post("/login", to(&State::FollowLink));
   server.Post("/api/v1/login", to(&State::LogIn));
   server.Post("/api/v1/logout", to(&State::LogOut));
   server.Get("/api/v1/session", to(&State::ShowSession));

@@ -41,6 +41,7 @@ struct ConsoleServer::State {
                                   const std::function<absl::StatusOr<std::string>()>& open);
   absl::StatusOr<Login> LoginOf(const httplib::Request& request);
   void LogIn(const httplib::Request& request, httplib::Response* response);
+  void ShowLink(const httplib::Request& request, httplib::Response* response);
   void FollowLink(const httplib::Request& request, httplib::Response* response);
   void LogOut(const httplib::Request& request, httplib::Response* response);
   void ShowSession(const httplib::Request& request, httplib::Response* response);

@@ -48,5 +48,31 @@ TEST_F(ClockWatchTest, AClockThatIsSetBackIsNoReason) {
   EXPECT_EQ(Since(kNow - 500 * kMinute, 11), ClockWatch::kEarliestNs);
 }
 
+TEST_F(ClockWatchTest, TenMinutesAfterAJumpWasTakenBackAgesAreTrustedAgain) {
+  constexpr std::int64_t kYear = 365 * 24 * 60 * kMinute;
+  Since(kNow, 0);
+  EXPECT_EQ(Since(kNow + 20 * kMinute + kYear, 20), kNow + 20 * kMinute + kYear);
+  EXPECT_GT(Since(kNow + 30 * kMinute, 30), kNow + kYear);
+  EXPECT_GT(Since(kNow + 39 * kMinute, 39), kNow + kYear);
+  EXPECT_EQ(Since(kNow + 40 * kMinute, 40), ClockWatch::kEarliestNs);
+}
+
+TEST_F(ClockWatchTest, AJumpThatIsTakenBackInPartIsStillAJump) {
+  constexpr std::int64_t kYear = 365 * 24 * 60 * kMinute;
+  Since(kNow, 0);
+  const std::int64_t jumped = kNow + 20 * kMinute + kYear;
+  EXPECT_EQ(Since(jumped, 20), jumped);
+  EXPECT_EQ(Since(jumped - kYear / 2, 30), jumped);
+  EXPECT_EQ(Since(jumped - kYear / 2 + 30 * kMinute, 60), jumped);
+}
+
+TEST_F(ClockWatchTest, AfterAJumpWasTakenBackTheJumpBeforeItCounts) {
+  Since(60'000'000'000, 0);
+  EXPECT_EQ(Since(kNow, 20), kNow);
+  Since(kNow + 500 * kMinute, 30);
+  Since(kNow + 20 * kMinute, 40);
+  EXPECT_EQ(Since(kNow + 30 * kMinute, 50), kNow);
+}
+
 }  // namespace
 }  // namespace homing::server

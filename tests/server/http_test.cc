@@ -1,7 +1,10 @@
 // The HTTP side over a real socket: logins, roles, and the checks of where a request comes from.
 #include <httplib.h>
 
+#include <algorithm>
+#include <future>
 #include <nlohmann/json.hpp>
+#include <vector>
 
 #include "homing/v1/fleet_service.pb.h"
 #include "server/access/certificate_folder.h"
@@ -124,10 +127,40 @@ TEST_F(HttpTest, ALinkLogsInOnce) {
   EXPECT_EQ(server_->console_link(false).find("once="), std::string::npos);
   auto browser = Browser();
   const std::string path = link.substr(link.find("/login"));
-  const auto first = browser.Get(path);
+  const auto first = browser.Post(path);
   EXPECT_EQ(first->status, 303);
   EXPECT_EQ(Session({{"Cookie", CookieIn(first)}})["role"], "operator");
-  EXPECT_FALSE(browser.Get(path)->has_header("Set-Cookie"));
+  EXPECT_FALSE(browser.Post(path)->has_header("Set-Cookie"));
+}
+
+TEST_F(HttpTest, WhatLooksAtALinkDoesNotUseIt) {
+  StartGuarded();
+  const std::string link = server_->console_link(true);
+  auto browser = Browser();
+  const std::string path = link.substr(link.find("/login"));
+  for (const auto& answer : {browser.Head(path), browser.Get(path), browser.Options(path)}) {
+    EXPECT_FALSE(answer->has_header("Set-Cookie"));
+  }
+  EXPECT_THAT(browser.Get(path)->body, HasSubstr("method=\"post\""));
+  EXPECT_EQ(browser.Get(path)->get_header_value("Referrer-Policy"), "same-origin");
+  const httplib::Headers other_site = {{"Origin", "http://evil.example"}};
+  EXPECT_EQ(browser.Post(path, other_site, "", "application/x-www-form-urlencoded")->status, 403);
+  const httplib::Headers same_site = {{"Origin", "http://" + server_->metrics_address()}};
+  EXPECT_TRUE(browser.Post(path, same_site, "", "application/x-www-form-urlencoded")
+                  ->has_header("Set-Cookie"));
+}
+
+TEST_F(HttpTest, OfBrowsersThatFollowALinkAtTheSameTimeOneGetsTheSession) {
+  StartGuarded();
+  const std::string link = server_->console_link(true);
+  const std::string path = link.substr(link.find("/login"));
+  std::vector<std::future<bool>> browsers;
+  for (int i = 0; i < 8; ++i) {
+    browsers.push_back(std::async(std::launch::async,
+                                  [&] { return Browser().Post(path)->has_header("Set-Cookie"); }));
+  }
+  EXPECT_EQ(std::count_if(browsers.begin(), browsers.end(), [](auto& got) { return got.get(); }),
+            1);
 }
 
 TEST_F(HttpTest, AProxyNamesTheUserOnlyIfItsHeaderIsSetUp) {

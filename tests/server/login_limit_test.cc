@@ -106,7 +106,7 @@ TEST_F(LoginTest, GuessesOfAnAddressDoNotLockOutItsOthers) {
   }
   EXPECT_EQ(browser.Post("/api/v1/login", R"({"token":"guess"})", "")->status, 429);
   EXPECT_EQ(browser.Post("/api/v1/login", R"({"token":"secret-r"})", "")->status, 200);
-  EXPECT_EQ(browser.Get("/login?once=guess")->get_header_value("Location"), "/#/login?link=used");
+  EXPECT_EQ(browser.Post("/login?once=guess")->get_header_value("Location"), "/#/login?link=used");
   EXPECT_EQ(browser.Get("/healthz")->status, 200);
 }
 

@@ -2,6 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
+
 #include "tests/storage/store_fixture.h"
 #include "tests/support/status_matchers.h"
 
@@ -162,6 +164,24 @@ TEST(OpenJourneyStore, IsForOneServerAtATime) {
               StatusIs(absl::StatusCode::kUnavailable, HasSubstr("another homing-server")));
   first.reset();
   EXPECT_THAT(OpenJourneyStore(options), IsOk());
+}
+
+TEST(OpenJourneyStore, IsForOneServerAlsoByALinkOrWithoutTheLockFile) {
+  const TemporaryFolder folder;
+  const auto first = OpenOrDie(folder.Database());
+  const auto in_use = StatusIs(absl::StatusCode::kUnavailable, HasSubstr("another homing-server"));
+  std::filesystem::create_hard_link(folder.File("homing.db"), folder.File("link.db"));
+  std::filesystem::create_symlink(folder.File("homing.db"), folder.File("symlink.db"));
+  std::filesystem::remove(folder.File("homing.db-lock"));
+  for (const char* name : {"link.db", "symlink.db", "homing.db"}) {
+    for (const bool read_only : {false, true}) {
+      StoreOptions options;
+      options.url = "sqlite:" + folder.File(name);
+      options.read_only = read_only;
+      EXPECT_THAT(OpenJourneyStore(options), in_use) << name;
+    }
+  }
+  EXPECT_THAT(first->CreateJourney(Record(kJourney)), IsOk());
 }
 
 }  // namespace

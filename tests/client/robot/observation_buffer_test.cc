@@ -76,7 +76,7 @@ TEST_F(ObservationBufferTest, ARestartLosesNothing) {
   Open(/*in_memory=*/0);
   EXPECT_EQ(buffer_->pending(), 5);
   Add(5, 7);
-  EXPECT_THAT(buffer_->Align(2), IsOk());
+  EXPECT_EQ(buffer_->Align(2).value(), 0);
   Expect(2, 5, 2);
   const v1::Observation first_new = Next();
   EXPECT_EQ(first_new.sequence(), 5);
@@ -89,11 +89,48 @@ TEST_F(ObservationBufferTest, NewOnesGetTheNumbersThatTheServerExpects) {
   for (const int in_memory : {0, 100}) {
     Open(in_memory);
     Add(20, 23);
-    EXPECT_THAT(buffer_->Align(12), IsOk());
+    EXPECT_EQ(buffer_->Align(12).value(), 0);
     Expect(12, 15, 20);
     EXPECT_EQ(buffer_->pending(), 3);
     EXPECT_EQ(*buffer_->Add(Seen(23)), 15);
     EXPECT_THAT(buffer_->Acknowledge(16, 16), IsOk());
+  }
+}
+
+// The server was restored from an older backup.
+TEST_F(ObservationBufferTest, BehindObservationsThatTheServerLostTheOthersFollowAtOnce) {
+  for (const std::int64_t reference : {7, 4}) {
+    Open(/*in_memory=*/0);
+    Add(0, 10);
+    EXPECT_THAT(buffer_->Acknowledge(8, reference), IsOk());
+    Open(/*in_memory=*/0);
+    Add(10, 11);
+    const std::int64_t first = reference == 7 ? 7 : 8;
+    EXPECT_EQ(buffer_->Align(2).value(), first - 2);
+    // The program ends before it has sent anything.
+    Open(/*in_memory=*/0);
+    EXPECT_EQ(buffer_->Align(2).value(), 0);
+    EXPECT_EQ(buffer_->pending(), 11 - first);
+    v1::Observation next = Next();
+    EXPECT_EQ(next.sequence(), 2);
+    EXPECT_EQ(next.capture_time().seconds(), first);
+    EXPECT_TRUE(next.break_before());
+    Expect(3, 2 + 11 - first, first + 1);
+    EXPECT_EQ(*buffer_->Add(Seen(11)), 2 + 11 - first);
+    EXPECT_THAT(buffer_->Acknowledge(100, 100), IsOk());
+  }
+}
+
+TEST_F(ObservationBufferTest, AGapIsABreakBesideThatOfTheNewProgram) {
+  Open(/*in_memory=*/0);
+  Add(0, 10);
+  EXPECT_THAT(buffer_->Acknowledge(8, 8), IsOk());
+  Open(/*in_memory=*/0);
+  Add(10, 12);
+  EXPECT_EQ(buffer_->Align(2).value(), 6);
+  buffer_->ContinueAt(2);
+  for (const bool is_break : {true, false, true, false}) {
+    EXPECT_EQ(Next().break_before(), is_break);
   }
 }
 

@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <chrono>
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <thread>
@@ -62,6 +63,7 @@ class RobotTest : public ::testing::Test {
       EXPECT_EQ(recorded.sequence, durable_++);
       if (recorded.step) ++steps_;
     };
+    options.on_message = [this](const std::string& text) { messages_ += text + "\n"; };
     auto recorder = Recorder::Open(Server{address_}, options);
     EXPECT_TRUE(recorder.ok()) << recorder.status().message();
     return *std::move(recorder);
@@ -74,6 +76,10 @@ class RobotTest : public ::testing::Test {
     }
   }
 
+  void AwaitDurable(int count) const {
+    while (durable_ < count) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+
   static void ExpectDone(Recorder& recorder) {
     const Status done = recorder.Finish(seconds(30));
     EXPECT_TRUE(done.ok()) << done.message();
@@ -84,6 +90,8 @@ class RobotTest : public ::testing::Test {
   std::unique_ptr<server::HomingServer> server_;
   std::atomic<int> durable_ = 0;
   std::atomic<int> steps_ = 0;
+  // Written by the thread of the one recorder.
+  std::string messages_;
 };
 
 TEST_F(RobotTest, RecordsAndLocalises) {
@@ -141,6 +149,33 @@ TEST_F(RobotTest, WhatWaitsSurvivesTheProgram) {
   Add(*recorder, 20, 25);
   ExpectDone(*recorder);
   EXPECT_EQ(durable_, 25);
+}
+
+TEST_F(RobotTest, AfterTheServerWasRestoredFromABackupWhatWaitsIsRecordedBehindAGap) {
+  {
+    const auto recorder = Record();
+    Add(*recorder, 0, 10);
+    AwaitDurable(10);
+  }
+  server_.reset();
+  std::filesystem::copy_file(folder_.File("homing.db"), folder_.File("backup"));
+  StartServer();
+  {
+    const auto recorder = Record();
+    Add(*recorder, 10, 20);
+    AwaitDurable(20);
+    server_.reset();
+    Add(*recorder, 20, 30);
+  }
+  std::filesystem::rename(folder_.File("backup"), folder_.File("homing.db"));
+  StartServer();
+  durable_ = 10;
+  const auto recorder = Record();
+  Add(*recorder, 30, 35);
+  ExpectDone(*recorder);
+  EXPECT_GE(durable_, 25);
+  EXPECT_LE(durable_, 26) << "the reference may be sent again";
+  EXPECT_THAT(messages_, ::testing::HasSubstr("only the first 10 observations"));
 }
 
 TEST_F(RobotTest, TheFileOfAFinishedJourneyCanBeUsedForAnother) {

@@ -1,6 +1,7 @@
 #include "homing/localization/localizer.h"
 
 #include "homing/journey/journey_recorder.h"
+#include "tests/support/route.h"
 #include "tests/support/status_matchers.h"
 #include "tests/support/travelling_robot.h"
 
@@ -168,6 +169,68 @@ TEST_F(LocalizerTest, ErrorLeavesNoTrace) {
     EXPECT_EQ(a->position.probability, b->position.probability);
     EXPECT_EQ(a->matches.size(), b->matches.size());
   }
+}
+
+constexpr double kFocal = 300;
+
+// What both cameras see at `place` while the robot drives on and turns by `turn` rad to the left.
+Observation SeenAt(std::int64_t sequence, int place, double turn) {
+  Observation observation;
+  observation.sequence = sequence;
+  for (const Side side : {Side::kLeft, Side::kRight}) {
+    FlowField field{.width = 320, .height = 240, .vectors = {}};
+    for (std::uint32_t i = 0; i < 120; ++i) {
+      const double x = 15 + 24.0 * (i % 12), y = 15 + 20.0 * (i / 12);
+      const double right = (x - 159.5) / kFocal, down = (y - 119.5) / kFocal;
+      const double nearness = 0.6 + 0.8 * test::Noise(static_cast<std::uint32_t>(place), i,
+                                                      side == Side::kLeft ? 1 : 2);
+      const double moved_x =
+          kFocal * turn * (1 + right * right) + (side == Side::kLeft ? -10 : 10) * nearness;
+      const double moved_y = kFocal * turn * right * down;
+      field.vectors.push_back(
+          {static_cast<float>(x - moved_x / 2), static_cast<float>(y - moved_y / 2),
+           static_cast<float>(x + moved_x / 2), static_cast<float>(y + moved_y / 2)});
+    }
+    observation.views[static_cast<std::size_t>(side)] = std::move(field);
+  }
+  return observation;
+}
+
+TEST(LocalizerTurnTest, TheTurnInWhichThePlaceIsLostCountsOnce) {
+  constexpr double kTurned = 0.02;
+  Camera camera;
+  camera.width = 320;
+  camera.height = 240;
+  camera.intrinsics = Intrinsics{kFocal, kFocal, 159.5, 119.5};
+  JourneySettings settings;
+  settings.cameras = {camera, camera};
+  JourneyRecorder recorder{settings};
+  JourneyMap map;
+  for (int place = 0; place < 60; ++place) {
+    const auto step = recorder.Record(SeenAt(place, place, 0));
+    ASSERT_THAT(step, IsOk());
+    ASSERT_TRUE(step->has_value());
+    ASSERT_THAT(map.Append(**step), IsOk());
+  }
+  map.mutable_settings() = recorder.settings();
+  const std::string name = "robots/a/journeys/b";
+  const JourneyRef journey{&name, &map};
+  LocalizerOptions options = Same();
+  options.cameras = settings.cameras;
+  Localizer localizer(options);
+  Localization answer;
+  for (int place = 0; place < 30; ++place) {
+    answer = localizer.Localize(SeenAt(place, place, 0), {&journey, 1}).value();
+  }
+  ASSERT_TRUE(answer.position.step);
+  // Elsewhere, in a bend.
+  for (int i = 30; i < 90 && answer.position.step; ++i) {
+    answer = localizer.Localize(SeenAt(i, 1000 + i, kTurned), {&journey, 1}).value();
+  }
+  ASSERT_FALSE(answer.position.step);
+  ASSERT_EQ(answer.motion, Motion::kMoving);
+  ASSERT_TRUE(answer.turn);
+  EXPECT_NEAR(*answer.turn, kTurned, 0.3 * kTurned);
 }
 
 TEST(CheckCompatibleTest, ComparesOptionsAndSizesBySideOfTheRoute) {
