@@ -174,7 +174,7 @@ class AsyncClient:
                 finally:
                     call.cancel()
                     await _cancel(writing)
-                await _wait(retry, error)
+                await _wait(retry, error, limit.quiet())
         finally:
             if sender is not None:
                 await sender.close()
@@ -225,7 +225,7 @@ class AsyncClient:
                 finally:
                     call.cancel()
                     await _cancel(writing)
-                await _wait(retry, error)
+                await _wait(retry, error, limit.quiet())
                 # The last one answered is sent again: flow continues from it.
                 sender.begin(reported + 1, max(reported, 0))
         finally:
@@ -267,8 +267,8 @@ def _record_request(seen: Any) -> Any:
     return journey_service_pb2.RecordJourneyRequest(observation=seen)
 
 
-async def _wait(retry: Retry, error: Optional[grpc.RpcError]) -> None:
-    wait = retry.wait_after(error)
+async def _wait(retry: Retry, error: Optional[grpc.RpcError], quiet: float = 0.0) -> None:
+    wait = retry.wait_after(error, quiet)
     if wait is None:
         raise from_rpc(error) from None
     await asyncio.sleep(wait)
