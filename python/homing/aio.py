@@ -50,7 +50,8 @@ class _Sender:
                 await self._room.acquire()
                 self._outbox.add(message)
                 self._changed.set()
-        except Exception as error:  # The caller's own: given back by the reading side.
+        except (Exception, asyncio.CancelledError) as error:
+            # The caller's own, as of a task that the source awaits: given back by the reading side.
             self.error = error
         self._ended = True
         self._changed.set()
