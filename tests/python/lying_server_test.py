@@ -48,10 +48,12 @@ def impatient(requests, seconds):
 class LyingServer(journey_service_pb2_grpc.JourneyServiceServicer,
                   homing_service_pb2_grpc.HomingServiceServicer):
     """Ends a stream without an error after `ends_after` observations; `lie` changes each answer;
-    `silent` streams are accepted and never answer; a stream without requests for `patience` s ends."""
+    `silent` streams are accepted and never answer; a stream without requests for `patience` s ends;
+    of each method the first `cancelled` calls are cancelled."""
 
     def __init__(self, ends_after=None, lie=lambda answer: None, silent=0, answer_time=60,
-                 retry_for=0.5, patience=60):
+                 retry_for=0.5, patience=60, cancelled=0):
+        self.cancelled = {name: cancelled for name in ("create", "finish", "record", "localize")}
         self.patience = patience
         self.silent = silent
         self.ends_after = ends_after
@@ -72,10 +74,17 @@ class LyingServer(journey_service_pb2_grpc.JourneyServiceServicer,
     def __exit__(self, *unused):
         self.server.stop(0)
 
+    def cancel_first(self, method, context):
+        self.cancelled[method] -= 1
+        if self.cancelled[method] >= 0:
+            context.abort(grpc.StatusCode.CANCELLED, "CANCELLED")
+
     def CreateJourney(self, request, context):
+        self.cancel_first("create", context)
         return journey_service_pb2.Journey(name=JOURNEY)
 
     def FinishJourney(self, request, context):
+        self.cancel_first("finish", context)
         self.finished = True
         return journey_service_pb2.FinishJourneyResponse()
 
@@ -85,6 +94,7 @@ class LyingServer(journey_service_pb2_grpc.JourneyServiceServicer,
             time.sleep(0.01)
 
     def RecordJourney(self, requests, context):
+        self.cancel_first("record", context)
         self.fall_silent(context)
         requests = impatient(requests, self.patience)
         next(requests)
@@ -100,6 +110,7 @@ class LyingServer(journey_service_pb2_grpc.JourneyServiceServicer,
             yield truth
 
     def Localize(self, requests, context):
+        self.cancel_first("localize", context)
         self.fall_silent(context)
         requests = impatient(requests, self.patience)
         next(requests)
@@ -190,6 +201,18 @@ class LyingServerTest(unittest.TestCase):
             with LyingServer(patience=0.8, retry_for=1) as liar:
                 answers = run(liar, 2.5)
             self.assertEqual([answer.sequence for answer in answers], list(range(COUNT)))
+
+    def test_calls_that_a_stopping_server_cancels_are_tried_again(self):
+        for run in RECORDING + LOCALISING:
+            with LyingServer(cancelled=2, retry_for=30) as liar:
+                self.assertEqual([answer.sequence for answer in run(liar)], list(range(COUNT)))
+
+    def test_a_client_that_is_closed_meanwhile_does_not_try_again(self):
+        with LyingServer(silent=1000, retry_for=30) as liar:
+            client = homing.Client(liar.address)
+            threading.Timer(0.3, client.close).start()
+            with self.assertRaisesRegex(homing.HomingError, "CANCELLED"):
+                list(client.record(JOURNEY, iter(FRAMES)))
 
     def test_a_silent_server_is_noticed(self):
         for address in ("127.0.0.1:1", "127.0.0.1:1,127.0.0.1:2"):
