@@ -205,7 +205,9 @@ PilotCommand Pilot::Drive(double now_s) {
   if (state_ == State::kTurningRound) {
     command = TurnRound();
   } else if (state_ != State::kHome) {
-    const bool is_late = now_s - arrival_time_s_ > options_.stop_after_s;
+    // What is older than the commands kept says nothing about now.
+    const bool is_late =
+        now_s - arrival_time_s_ > options_.stop_after_s || now_s - answer_time_s_ > kMemoryS;
     if (is_patient && now_.remaining_m <= options_.stop_before_m) {
       state_ = State::kHome;
     } else if (is_late) {

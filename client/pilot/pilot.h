@@ -66,7 +66,8 @@ struct PilotOptions {
   // Most metres driven by the commands and the turns while unsure, after which the pilot stops and
   // searches; fewer soon after the start, where the heading is not known as well.
   double patience_m = 25;
-  // Time without an answer after which the pilot slows down, and after which it stops, s.
+  // Time without an answer after which the pilot slows down, and after which it stops, s. It also
+  // stops while the answers are older than 10 s.
   double slow_after_s = 0.6;
   double stop_after_s = 1.2;
   // Stops this far before home, m.

@@ -50,7 +50,8 @@ class _Sender:
                 await self._room.acquire()
                 self._outbox.add(message)
                 self._changed.set()
-        except Exception as error:  # The caller's own: given back by the reading side.
+        except (Exception, asyncio.CancelledError) as error:
+            # The caller's own, as of a task that the source awaits: given back by the reading side.
             self.error = error
         self._ended = True
         self._changed.set()
@@ -174,7 +175,7 @@ class AsyncClient:
                 finally:
                     call.cancel()
                     await _cancel(writing)
-                await _wait(retry, error)
+                await _wait(retry, error, limit.quiet())
         finally:
             if sender is not None:
                 await sender.close()
@@ -225,7 +226,7 @@ class AsyncClient:
                 finally:
                     call.cancel()
                     await _cancel(writing)
-                await _wait(retry, error)
+                await _wait(retry, error, limit.quiet())
                 # The last one answered is sent again: flow continues from it.
                 sender.begin(reported + 1, max(reported, 0))
         finally:
@@ -267,8 +268,8 @@ def _record_request(seen: Any) -> Any:
     return journey_service_pb2.RecordJourneyRequest(observation=seen)
 
 
-async def _wait(retry: Retry, error: Optional[grpc.RpcError]) -> None:
-    wait = retry.wait_after(error)
+async def _wait(retry: Retry, error: Optional[grpc.RpcError], quiet: float = 0.0) -> None:
+    wait = retry.wait_after(error, quiet)
     if wait is None:
         raise from_rpc(error) from None
     await asyncio.sleep(wait)

@@ -21,11 +21,27 @@ class AnswerLimit:
         self._is_reading = False
         self._since = 0.0
         self._over = False
+        self._noted = time.monotonic()
+        self._quiet = 0.0
         self.expired = False
+
+    def quiet(self) -> float:
+        """Time since the last answer in which none was awaited, or its reader was busy, seconds."""
+        with self._changed:
+            self._note()
+            return self._quiet
+
+    def _note(self) -> None:
+        """Before each change of what is awaited."""
+        now = time.monotonic()
+        if self._awaited == 0 or not self._is_reading:
+            self._quiet += now - self._noted
+        self._noted = now
 
     def sent(self) -> None:
         """One more answer, or the end of the stream, is awaited."""
         with self._changed:
+            self._note()
             if self._awaited == 0:
                 self._since = time.monotonic()
                 self._changed.notify()
@@ -33,12 +49,15 @@ class AnswerLimit:
 
     def answered(self) -> None:
         with self._changed:
+            self._note()
+            self._quiet = 0.0
             # A server may answer twice.
             self._awaited = max(0, self._awaited - 1)
             self._is_reading = False
 
     def read_on(self) -> None:
         with self._changed:
+            self._note()
             self._is_reading = True
             self._since = time.monotonic()
             self._changed.notify()

@@ -105,8 +105,8 @@ class _Sender:
         return None
 
 
-def _wait(retry: Retry, error: Optional[grpc.RpcError]) -> None:
-    wait = retry.wait_after(error)
+def _wait(retry: Retry, error: Optional[grpc.RpcError], quiet: float = 0.0) -> None:
+    wait = retry.wait_after(error, quiet)
     if wait is None:
         raise from_rpc(error) from None
     time.sleep(wait)
@@ -193,7 +193,7 @@ class Client:
             finally:
                 link.close()
                 stream.cancel()
-            _wait(retry, error)
+            _wait(retry, error, limit.quiet())
         if sender.error is not None:
             raise sender.error
         if finish:
@@ -238,7 +238,7 @@ class Client:
             finally:
                 link.close()
                 stream.cancel()
-            _wait(retry, error)
+            _wait(retry, error, limit.quiet())
             # The last one answered is sent again: flow continues from it.
             sender.begin(reported + 1, max(reported, 0))
         if sender.error is not None:

@@ -28,7 +28,8 @@ class Server:
     tls_key: Optional[str] = None
     # File with a bearer token, instead of a certificate. It is sent over TLS only.
     token_file: Optional[str] = None
-    # How long a broken link is tried again since it last worked, seconds.
+    # How long a broken link is tried again since it last worked, seconds. Time in which nothing was
+    # sent, or the program did not take answers, does not count.
     retry_for: float = 60.0
     # Longest time without an answer, while one is awaited, until a stream counts as broken, seconds.
     answer_time: float = 60.0
@@ -120,8 +121,10 @@ class Retry:
         self._wait = 0.1
         self._corrections = 0
 
-    def wait_after(self, error: Optional[grpc.RpcError]) -> Optional[float]:
-        """Seconds to wait; None: give up. The error of a stream that ended early is None."""
+    def wait_after(self, error: Optional[grpc.RpcError], quiet: float = 0.0) -> Optional[float]:
+        """Seconds to wait; None: give up. The error of a stream that ended early is None. `quiet`:
+        seconds since the last answer in which the link was not used."""
+        self._last = min(self._last + quiet, time.monotonic())
         if error is not None and is_correctable(error):
             self._corrections += 1
             if self._corrections > _MAX_CORRECTIONS:

@@ -7,6 +7,8 @@ from typing import Optional
 import grpc
 
 _RETRY_INFO = b"google.rpc.RetryInfo"
+# What gRPC says of calls that this program cancelled, or whose client it closed.
+_OWN_CANCELS = ("Channel closed!", "Locally cancelled by application!")
 
 
 class HomingError(Exception):
@@ -26,11 +28,14 @@ def from_rpc(error: Optional[grpc.RpcError]) -> HomingError:
 
 
 def is_retriable(error: grpc.RpcError) -> bool:
-    """UNAVAILABLE, or another code to which the server added when to try again."""
+    """UNAVAILABLE, RESOURCE_EXHAUSTED to which the server added when to try again, or CANCELLED by the
+    server: one that shuts down ends new calls so."""
     code = error.code()
     if code == grpc.StatusCode.UNAVAILABLE:
         return True
-    if code not in (grpc.StatusCode.RESOURCE_EXHAUSTED, grpc.StatusCode.CANCELLED):
+    if code == grpc.StatusCode.CANCELLED:
+        return error.details() not in _OWN_CANCELS
+    if code != grpc.StatusCode.RESOURCE_EXHAUSTED:
         return False
     trailers = error.trailing_metadata() or ()
     return any(key == "grpc-status-details-bin" and _RETRY_INFO in value

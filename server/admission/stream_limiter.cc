@@ -7,6 +7,13 @@
 #include "server/base/error_reason.h"
 
 namespace homing::server {
+namespace {
+
+// The last quarter of all places is for robots with fewer streams than this.
+constexpr int kKeptPart = 4;
+constexpr int kFewStreams = 16;
+
+}  // namespace
 
 StreamLimiter::Slot::Slot(StreamLimiter* limiter, std::string robot)
     : limiter_(limiter), robot_(std::move(robot)) {}
@@ -36,7 +43,15 @@ absl::StatusOr<StreamLimiter::Slot> StreamLimiter::Enter(const std::string& robo
                           absl::StrCat(open_, " streams are open; max-streams is ", max_all_)),
                       {"STREAMS", {}});
   }
-  const int of_robot = robot.empty() ? 0 : of_robot_[robot];
+  const auto found = of_robot_.find(robot);
+  const int of_robot = found == of_robot_.end() ? 0 : found->second;
+  if (open_ >= max_all_ - max_all_ / kKeptPart && max_all_ > 0 && of_robot >= kFewStreams) {
+    return WithReason(
+        absl::ResourceExhaustedError(absl::StrCat(
+            robot, " has ", of_robot, " open streams; the last quarter of max-streams, ", max_all_,
+            ", is for robots with fewer than ", kFewStreams)),
+        {"STREAMS", {}});
+  }
   if (max_robot_ > 0 && of_robot >= max_robot_) {
     return WithReason(
         absl::ResourceExhaustedError(absl::StrCat(

@@ -32,7 +32,8 @@ class StreamLimiter {
   // 0: no limit.
   StreamLimiter(int max_all, int max_robot) : max_all_(max_all), max_robot_(max_robot) {}
 
-  // `robot` empty: the stream counts in the total only. RESOURCE_EXHAUSTED naming the limit.
+  // `robot` empty: the stream counts in the total only. RESOURCE_EXHAUSTED naming the limit. The
+  // last quarter of all is for robots with fewer than 16, so that one cannot keep out the others.
   absl::StatusOr<Slot> Enter(const std::string& robot);
   int open() const;
 

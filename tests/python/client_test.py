@@ -199,6 +199,30 @@ class ClientTest(unittest.TestCase):
         self.expect_ascending(recorded)
         self.assertEqual([one.sequence for one in answers], list(range(40)))
 
+    def test_asyncio_source_that_awaits_a_cancelled_task(self):
+        self.start()
+
+        async def camera(images):
+            for image in images:
+                yield image
+            lost = asyncio.ensure_future(asyncio.sleep(60))
+            lost.cancel()
+            await lost
+
+        async def run(method):
+            async for _ in method(JOURNEY, camera(frames(12))):
+                pass
+
+        async def drive():
+            async with homing.AsyncClient(self.address) as client:
+                for method in (client.record, client.localize):
+                    with self.assertRaises(asyncio.CancelledError):
+                        await asyncio.wait_for(run(method), 20)
+                return await client.get(JOURNEY)
+
+        journey = asyncio.run(drive())
+        self.assertEqual((journey.next_sequence, journey.finished), (12, False))
+
     def test_asyncio_takes_no_more_from_a_live_camera_than_its_window(self):
         self.start()
 

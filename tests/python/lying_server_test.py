@@ -1,6 +1,8 @@
 """The clients against a server that answers what is not true, and one that falls silent."""
 
 import asyncio
+import queue
+import threading
 import time
 import unittest
 from concurrent import futures
@@ -20,13 +22,39 @@ FRAMES = [np.full((16, 16), number, np.uint8) for number in range(8)]
 COUNT = len(FRAMES)
 
 
+def impatient(requests, seconds):
+    """Ends once nothing has come for so long."""
+    come = queue.Queue()
+
+    def read():
+        try:
+            for request in requests:
+                come.put(request)
+        except grpc.RpcError:
+            pass
+        come.put(None)
+
+    threading.Thread(target=read, daemon=True).start()
+    while True:
+        try:
+            request = come.get(timeout=seconds)
+        except queue.Empty:
+            return
+        if request is None:
+            return
+        yield request
+
+
 class LyingServer(journey_service_pb2_grpc.JourneyServiceServicer,
                   homing_service_pb2_grpc.HomingServiceServicer):
     """Ends a stream without an error after `ends_after` observations; `lie` changes each answer;
-    `silent` streams are accepted and never answer."""
+    `silent` streams are accepted and never answer; a stream without requests for `patience` s ends;
+    of each method the first `cancelled` calls are cancelled."""
 
     def __init__(self, ends_after=None, lie=lambda answer: None, silent=0, answer_time=60,
-                 retry_for=0.5):
+                 retry_for=0.5, patience=60, cancelled=0):
+        self.cancelled = {name: cancelled for name in ("create", "finish", "record", "localize")}
+        self.patience = patience
         self.silent = silent
         self.ends_after = ends_after
         self.lie = lie
@@ -46,10 +74,17 @@ class LyingServer(journey_service_pb2_grpc.JourneyServiceServicer,
     def __exit__(self, *unused):
         self.server.stop(0)
 
+    def cancel_first(self, method, context):
+        self.cancelled[method] -= 1
+        if self.cancelled[method] >= 0:
+            context.abort(grpc.StatusCode.CANCELLED, "CANCELLED")
+
     def CreateJourney(self, request, context):
+        self.cancel_first("create", context)
         return journey_service_pb2.Journey(name=JOURNEY)
 
     def FinishJourney(self, request, context):
+        self.cancel_first("finish", context)
         self.finished = True
         return journey_service_pb2.FinishJourneyResponse()
 
@@ -59,7 +94,9 @@ class LyingServer(journey_service_pb2_grpc.JourneyServiceServicer,
             time.sleep(0.01)
 
     def RecordJourney(self, requests, context):
+        self.cancel_first("record", context)
         self.fall_silent(context)
+        requests = impatient(requests, self.patience)
         next(requests)
         answer = journey_service_pb2.RecordJourneyResponse
         yield answer(next_sequence=self.stored, resend_from=self.stored)
@@ -73,7 +110,9 @@ class LyingServer(journey_service_pb2_grpc.JourneyServiceServicer,
             yield truth
 
     def Localize(self, requests, context):
+        self.cancel_first("localize", context)
         self.fall_silent(context)
+        requests = impatient(requests, self.patience)
         next(requests)
         for count, request in enumerate(requests, 1):
             if count == self.ends_after:
@@ -83,21 +122,35 @@ class LyingServer(journey_service_pb2_grpc.JourneyServiceServicer,
             yield truth
 
 
-def record(liar):
+def record(liar, pause=0):
     with homing.Client(liar.address) as client:
-        return list(client.record(JOURNEY, iter(FRAMES)))
+        return list(client.record(JOURNEY, camera(pause)))
 
 
-def localize(liar):
+def localize(liar, pause=0):
     with homing.Client(liar.address) as client:
-        return list(client.localize(JOURNEY, iter(FRAMES)))
+        return list(client.localize(JOURNEY, camera(pause)))
+
+
+def camera(pause):
+    for number, frame in enumerate(FRAMES):
+        if number == COUNT // 2:
+            time.sleep(pause)
+        yield frame
 
 
 def of_aio(method):
-    async def run(liar):
+    async def live_camera(pause):
+        for number, frame in enumerate(FRAMES):
+            if number == COUNT // 2:
+                await asyncio.sleep(pause)
+            yield frame
+
+    async def run(liar, pause=0):
         async with homing.aio.AsyncClient(liar.address) as client:
-            return [answer async for answer in getattr(client, method)(JOURNEY, iter(FRAMES))]
-    return lambda liar: asyncio.run(run(liar))
+            record_or_localize = getattr(client, method)
+            return [answer async for answer in record_or_localize(JOURNEY, live_camera(pause))]
+    return lambda *arguments: asyncio.run(run(*arguments))
 
 
 RECORDING = (record, of_aio("record"))
@@ -142,6 +195,24 @@ class LyingServerTest(unittest.TestCase):
             with LyingServer(silent=1000, answer_time=0.2) as liar:
                 with self.assertRaisesRegex(homing.HomingError, "did not answer"):
                     run(liar)
+
+    def test_a_quiet_source_does_not_use_up_the_time_to_try_again(self):
+        for run in RECORDING + LOCALISING:
+            with LyingServer(patience=0.8, retry_for=1) as liar:
+                answers = run(liar, 2.5)
+            self.assertEqual([answer.sequence for answer in answers], list(range(COUNT)))
+
+    def test_calls_that_a_stopping_server_cancels_are_tried_again(self):
+        for run in RECORDING + LOCALISING:
+            with LyingServer(cancelled=2, retry_for=30) as liar:
+                self.assertEqual([answer.sequence for answer in run(liar)], list(range(COUNT)))
+
+    def test_a_client_that_is_closed_meanwhile_does_not_try_again(self):
+        with LyingServer(silent=1000, retry_for=30) as liar:
+            client = homing.Client(liar.address)
+            threading.Timer(0.3, client.close).start()
+            with self.assertRaisesRegex(homing.HomingError, "CANCELLED"):
+                list(client.record(JOURNEY, iter(FRAMES)))
 
     def test_a_silent_server_is_noticed(self):
         for address in ("127.0.0.1:1", "127.0.0.1:1,127.0.0.1:2"):

@@ -1,4 +1,7 @@
 // Rates and open streams.
+#include <string>
+#include <vector>
+
 #include "server/admission/rate_limiter.h"
 #include "server/admission/stream_limiter.h"
 #include "server/base/error_reason.h"
@@ -85,6 +88,28 @@ TEST(StreamLimiterTest, TheLimitOfAllHoldsWhoeverCalls) {
   const auto c = limiter.Enter("robots/c");
   EXPECT_THAT(c, StatusIs(absl::StatusCode::kResourceExhausted, HasSubstr("max-streams is 2")));
   EXPECT_EQ(ReasonOf(c.status()).reason, "STREAMS");
+}
+
+TEST(StreamLimiterTest, OneRobotCannotKeepOutTheOthers) {
+  StreamLimiter limiter(100, 0);
+  std::vector<StreamLimiter::Slot> of_one;
+  absl::Status refused;
+  while (refused.ok()) {
+    auto slot = limiter.Enter("robots/a");
+    refused = slot.status();
+    if (slot.ok()) of_one.push_back(*std::move(slot));
+  }
+  EXPECT_EQ(of_one.size(), 75);
+  EXPECT_EQ(ReasonOf(refused).reason, "STREAMS");
+  std::vector<StreamLimiter::Slot> of_others;
+  for (int i = 0; i < 25; ++i) {
+    auto slot = limiter.Enter("robots/" + std::to_string(i));
+    ASSERT_THAT(slot, IsOk()) << i;
+    of_others.push_back(*std::move(slot));
+  }
+  of_one.pop_back();
+  EXPECT_FALSE(limiter.Enter("robots/a").ok());
+  EXPECT_THAT(limiter.Enter("robots/b"), IsOk());
 }
 
 }  // namespace
