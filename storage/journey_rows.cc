@@ -64,9 +64,7 @@ absl::StatusOr<std::vector<JourneyRecord>> ListJourneyRows(Connection& connectio
   std::vector<JourneyRecord> records;
   Query query = connection.Prepare(kListJourneys, after, prefix, absl::StrCat(prefix, kAfterAll),
                                    std::max(limit, 0));
-  while (query.Next()) {
-    HOMING_ASSIGN_OR_RETURN(records.emplace_back(), ReadRecord(query));
-  }
+  while (query.Next()) records.push_back(ReadListed(query));
   return records;
 }
 

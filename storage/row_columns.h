@@ -35,15 +35,22 @@ inline std::int64_t StoredSequence(std::int64_t value) {
   return value < 0 ? std::numeric_limits<std::int64_t>::min() : value;
 }
 
-// HOMING_JOURNEY_COLUMNS are the first columns. DATA_LOSS.
+// The texts of a journey that have a form. DATA_LOSS.
 template <typename Row>
-absl::StatusOr<JourneyRecord> ReadRecord(Row& row) {
+absl::Status ReadForms(Row& row, JourneyRecord* record) {
+  HOMING_ASSIGN_OR_RETURN(record->readers, NamesFromJson(row.Text(3)));
+  HOMING_ASSIGN_OR_RETURN(record->state, StateOfWord(row.Text(1)));
+  HOMING_ASSIGN_OR_RETURN(record->input, InputOfWord(row.Text(4)));
+  HOMING_ASSIGN_OR_RETURN(record->settings, JourneySettingsFromJson(row.Text(13)));
+  return absl::OkStatus();
+}
+
+// HOMING_JOURNEY_COLUMNS are the first columns. `forms` becomes the status of ReadForms.
+template <typename Row>
+JourneyRecord ReadRow(Row& row, absl::Status* forms) {
   JourneyRecord record;
   record.name = row.Text(0);
-  HOMING_ASSIGN_OR_RETURN(record.state, StateOfWord(row.Text(1)));
   record.writer_id = row.Text(2);
-  HOMING_ASSIGN_OR_RETURN(record.readers, NamesFromJson(row.Text(3)));
-  HOMING_ASSIGN_OR_RETURN(record.input, InputOfWord(row.Text(4)));
   record.next_sequence = row.Integer(5);
   record.resend_from = row.Integer(6);
   record.create_time_ns = row.Integer(7);
@@ -52,8 +59,25 @@ absl::StatusOr<JourneyRecord> ReadRecord(Row& row) {
   record.step_count = row.Integer(10);
   record.landmark_count = CountOf(row.Integer(11));
   record.fingerprint_count = row.Integer(12);
-  HOMING_ASSIGN_OR_RETURN(record.settings, JourneySettingsFromJson(row.Text(13)));
+  *forms = ReadForms(row, &record);
   return record;
+}
+
+// HOMING_JOURNEY_COLUMNS are the first columns. DATA_LOSS.
+template <typename Row>
+absl::StatusOr<JourneyRecord> ReadRecord(Row& row) {
+  absl::Status forms;
+  JourneyRecord record = ReadRow(row, &forms);
+  HOMING_RETURN_IF_ERROR(forms);
+  return record;
+}
+
+// For lists: a damaged journey has no readers or settings there, and does not take the others
+// along. Whoever reads it by its name gets the error.
+template <typename Row>
+JourneyRecord ReadListed(Row& row) {
+  absl::Status ignored;
+  return ReadRow(row, &ignored);
 }
 
 // HOMING_MODEL_COLUMNS are the first columns. DATA_LOSS.

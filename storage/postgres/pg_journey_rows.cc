@@ -115,7 +115,7 @@ absl::StatusOr<std::vector<JourneyRecord>> ListJourneyRows(PgConnection& connect
   std::vector<JourneyRecord> records;
   for (int row = 0; row < rows.size(); ++row) {
     const PgRow at{rows, row};
-    HOMING_ASSIGN_OR_RETURN(records.emplace_back(), ReadRecord(at));
+    records.push_back(ReadListed(at));
   }
   return records;
 }

@@ -119,6 +119,30 @@ TEST_F(DamageTest, RowsThatContradictEachOtherAreDataLoss) {
   }
 }
 
+TEST_F(DamageTest, OneDamagedJourneyDoesNotHideTheOthers) {
+  MakeFile(3);
+  {
+    auto store = OpenOrDie(folder_.Database());
+    JourneyRecord other = Record("robots/r2/journeys/b");
+    other.readers = {"*"};
+    ASSERT_THAT(store->CreateJourney(other), IsOk());
+  }
+  for (const char* change :
+       {"UPDATE journeys SET readers = '[' WHERE journey_id = 1",
+        "UPDATE journey_settings SET settings = 'nonsense' WHERE journey_id = 1"}) {
+    Execute(change);
+    auto store = OpenOrDie(folder_.Database());
+    const auto listed = store->ListJourneys("robots/", "", 10);
+    ASSERT_THAT(listed, IsOk()) << change;
+    ASSERT_EQ(listed->size(), 2U);
+    EXPECT_EQ(listed->front().name, kJourney);
+    EXPECT_EQ(listed->front().step_count, 3);
+    EXPECT_TRUE(listed->front().readers.empty());
+    EXPECT_EQ(listed->back().readers.size(), 1U);
+    EXPECT_THAT(store->GetJourney(kJourney), StatusIs(absl::StatusCode::kDataLoss, HasSubstr("")));
+  }
+}
+
 TEST_F(DamageTest, ATailThatContradictsItselfIsDataLoss) {
   MakeFile(30);
   const std::string original = path_ + ".original";
