@@ -1,5 +1,6 @@
 #include "server/http/event_feed.h"
 
+#include <grpcpp/impl/codegen/proto_utils.h>
 #include <grpcpp/support/byte_buffer.h>
 #include <grpcpp/support/sync_stream.h>
 
