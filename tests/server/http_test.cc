@@ -24,7 +24,12 @@ using ::testing::Not;
 class HttpTest : public ServerTest {
  protected:
   HttpTest() { options_.http = "127.0.0.1:0"; }
-  httplib::Client Browser() { return httplib::Client("http://" + server_->metrics_address()); }
+  httplib::Client Browser() {
+    httplib::Client browser("http://" + server_->metrics_address());
+    // A large answer takes a busy machine long under a sanitizer.
+    browser.set_read_timeout(60);
+    return browser;
+  }
   void StartGuarded() {
     options_.tokens = folder_.File("tokens.toml");
     EXPECT_THAT(AddToken(options_.tokens, "operators/o", HashToken("secret-o")), IsOk());
