@@ -40,7 +40,7 @@ class EchoStream final
       : BidiStream(core, context, server::Rpc::kRecordJourney) {}
 
  protected:
-  server::WorkerPool* StorePoolOf(const v1::RecordJourneyRequest& /*request*/) override {
+  server::WorkerPool* OtherPoolOf(const v1::RecordJourneyRequest& /*request*/) override {
     return nullptr;
   }
   absl::Status Handle(const v1::RecordJourneyRequest& request) override {
