@@ -79,6 +79,12 @@ int Serve(const homing::server::ServerOptions& options) {
     lines += "console: " + link + "\n";
   }
   std::cout << lines << std::flush;
+  if (homing::server::IsOpenToAll(options)) {
+    spdlog::warn(
+        "neither tokens nor tls-client-ca is set: everybody who reaches {} may read and change all "
+        "journeys",
+        (*server)->address());
+  }
   int signal = 0;
   while (sigwait(&signals, &signal) == 0 && signal == SIGHUP) {
     spdlog::info("SIGHUP: reading certificates, tokens and roles again");

@@ -99,7 +99,9 @@ void ApplyFile(const std::string& path, CLI::App* app) {
       message << path << ": unknown key \"" << name << '"';
       throw CLI::ValidationError("config", message.str());
     }
-    if (option->count() == 0) {
+    // As --check-config prints what is off.
+    const bool is_off = node.value<std::string>() == "" && option->get_default_str().empty();
+    if (option->count() == 0 && !is_off) {
       option->add_result(option->get_flag_value(option->get_single_name(), TextOf(node)));
       option->run_callback();
     }

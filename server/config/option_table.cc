@@ -148,6 +148,8 @@ std::string TomlValue(const Value& value) {
 
 }  // namespace
 
+// What is off by default is left out, not empty: an unset variable of a script must not turn off
+// the tokens or the certificates.
 void AddServerOptions(CLI::App* app, ServerOptions* options) {
   for (const ServerOption& option : kOptions) {
     const std::string flag = absl::StrCat("--", option.name);
@@ -162,6 +164,10 @@ void AddServerOptions(CLI::App* app, ServerOptions* options) {
         },
         value);
     added->default_str(DefaultText(option, value));
+    if (std::holds_alternative<std::string*>(value) && std::get<std::string*>(value)->empty()) {
+      added->check(CLI::Validator(
+          [](const std::string& text) { return text.empty() ? "must not be empty" : ""; }, ""));
+    }
     added->envname("HOMING_" +
                    absl::AsciiStrToUpper(absl::StrReplaceAll(option.name, {{"-", "_"}})));
     if (std::string(option.unit) == "bytes") {

@@ -39,6 +39,10 @@ absl::Status CheckForPostgres(const ServerOptions& options) {
 
 }  // namespace
 
+bool IsOpenToAll(const ServerOptions& options) {
+  return options.tokens.empty() && options.tls_client_ca.empty() && !IsLoopback(options.listen);
+}
+
 absl::Status Validate(const ServerOptions& options) {
   HOMING_RETURN_IF_ERROR(CheckRanges(options));
   if (options.tls_cert.empty() != options.tls_key.empty()) {

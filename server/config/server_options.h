@@ -74,6 +74,9 @@ inline bool HasHttp(const ServerOptions& options) {
   return !options.http.empty() && options.http != "off";
 }
 
+// True if every caller that reaches the server may do everything: it is not on loopback, and asks
+// for neither tokens nor certificates.
+bool IsOpenToAll(const ServerOptions& options);
 // INVALID_ARGUMENT naming the field and the rule that it breaks.
 absl::Status Validate(const ServerOptions& options);
 

@@ -75,6 +75,29 @@ TEST_F(ServerOptionsTest, WrongUsageExitsWithTwo) {
   EXPECT_EQ(Parse({"--config", WriteFile("workers = \"x\"\n").c_str()}).exit_code, 2);
 }
 
+TEST_F(ServerOptionsTest, AnUnsetVariableOfAScriptTurnsNoTokensOff) {
+  for (const char* flag : {"--tokens", "--roles", "--tls-client-ca", "--tls-crl-dir"}) {
+    EXPECT_EQ(Parse({flag, ""}).exit_code, 2) << flag;
+  }
+  // What --check-config prints is a valid file.
+  const ServerOptions defaults;
+  const ServerCommand read = Parse({"--config", WriteFile(ToToml(defaults)).c_str()});
+  EXPECT_EQ(read.exit_code, 0);
+  EXPECT_EQ(read.options.tokens, "");
+}
+
+TEST_F(ServerOptionsTest, KnowsWhereEverybodyMayDoEverything) {
+  ServerOptions options;
+  EXPECT_FALSE(IsOpenToAll(options));
+  options.listen = "0.0.0.0:50551";
+  EXPECT_TRUE(IsOpenToAll(options));
+  options.tokens = "tokens";
+  EXPECT_FALSE(IsOpenToAll(options));
+  options.tokens = "";
+  options.tls_client_ca = "ca.pem";
+  EXPECT_FALSE(IsOpenToAll(options));
+}
+
 TEST_F(ServerOptionsTest, TheLogIsTextOrJson) {
   ServerOptions options;
   for (const char* format : {"text", "json"}) {
