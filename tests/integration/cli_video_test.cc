@@ -5,9 +5,11 @@
 
 #include <filesystem>
 #include <fstream>
+#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <opencv2/videoio.hpp>
 #include <thread>
+#include <vector>
 
 #include "tests/integration/cli_fixture.h"
 
@@ -20,11 +22,15 @@ using ::testing::HasSubstr;
 class CliVideoTest : public CliTest {
  protected:
   void SetUp() override { StartServer(); }
-  // A camera that passes a rough wall. Motion JPEG: each frame stands for itself.
-  void Write(const std::string& path, int frames, cv::Size size) {
+  static cv::Mat Wall(cv::Size size) {
     cv::Mat wall(size.height / 8, size.width / 2, CV_8UC3);
     cv::RNG(7).fill(wall, cv::RNG::UNIFORM, 0, 255);
     cv::resize(wall, wall, cv::Size(4 * size.width, size.height), 0, 0, cv::INTER_CUBIC);
+    return wall;
+  }
+  // A camera that passes a rough wall. Motion JPEG: each frame stands for itself.
+  void Write(const std::string& path, int frames, cv::Size size) {
+    const cv::Mat wall = Wall(size);
     cv::VideoWriter writer(path, cv::CAP_FFMPEG, cv::VideoWriter::fourcc('M', 'J', 'P', 'G'), 20,
                            size);
     ASSERT_TRUE(writer.isOpened());
@@ -75,6 +81,23 @@ TEST_F(CliVideoTest, ACameraIsRecordedFromItsFirstFramesOn) {
   recording.Signal(SIGINT);
   EXPECT_EQ(recording.Wait(), 0) << recording.Stderr();
   EXPECT_EQ(Shown()["state"], "FINISHED");
+  EXPECT_GE(std::stoi(Shown()["step_count"].dump()), 18);
+}
+
+// Many cameras and programs write each frame as a JPEG file with a JFIF header.
+TEST_F(CliVideoTest, JpegImagesOneBehindTheOtherAreAVideo) {
+  const cv::Mat wall = Wall({320, 240});
+  {
+    std::ofstream film(Path("film.mjpeg"), std::ios::binary);
+    for (int i = 0; i < 20; ++i) {
+      std::vector<uchar> image;
+      ASSERT_TRUE(cv::imencode(".jpg", wall(cv::Rect(3 * i, 0, 320, 240)), image));
+      film.write(reinterpret_cast<const char*>(image.data()),
+                 static_cast<std::streamsize>(image.size()));
+    }
+  }
+  const Ran ran = Record(Path("film.mjpeg"));
+  EXPECT_EQ(ran.code, 0) << ran.errors;
   EXPECT_GE(std::stoi(Shown()["step_count"].dump()), 18);
 }
 
