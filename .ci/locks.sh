@@ -1,7 +1,7 @@
 #!/bin/bash
 # Compiles each product source by itself with clang: a file that relies on what another one includes fails, since nothing
-# is compiled together here. Locks are analysed too, as in the stage tidy. So are the programs that measure, which no other
-# stage compiles.
+# is compiled together here. Locks are analysed too, as in the stage tidy. The programs that measure are compiled as well, since no
+# other stage compiles them.
 # usage: .ci/locks.sh [PATTERN]          Only sources whose path matches the extended regular expression.
 #        .ci/locks.sh --since REVISION   Only sources that changed after it, or whose header did, and the programs that
 #                                        measure; all if the revision is unknown.

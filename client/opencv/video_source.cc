@@ -23,11 +23,12 @@ namespace {
 // image. The list has its names of video formats; the rest is its default.
 constexpr char kFfmpegOptions[] =
     "rtsp_transport;tcp|format_whitelist;mov,mp4,m4a,3gp,3g2,mj2,avi,matroska,webm,mpegts,mpeg,"
-    "mpegvideo,m4v,h261,h263,h264,hevc,av1,obu,ivf,vc1,dirac,flv,asf,ogg,mjpeg,jpeg_pipe,"
-    "mjpeg_2000,mpjpeg,mxf,nut,yuv4mpegpipe,dv,rm,wtv,nsv,gif,apng,rtsp,rtp,sdp,hls,dash";
-// FFmpeg recognises the format of a stream by 64 KiB, not 1 MiB, and analyses it for one second,
-// not five, before the first frame.
-constexpr char kLiveOptions[] = "|formatprobesize;65536|analyzeduration;1000000";
+    "mpegvideo,m4v,h261,h263,h264,hevc,av1,obu,ivf,vc1,dirac,flv,asf,ogg,mjpeg,mjpeg_2000,mpjpeg,"
+    "mxf,nut,yuv4mpegpipe,dv,rm,wtv,nsv,gif,apng,rtsp,rtp,sdp,hls,dash";
+// Continues the list: a camera may send JPEG images one behind the other. As a file that could be
+// one image. FFmpeg recognises the format of a stream by 64 KiB, not 1 MiB, and analyses it for one
+// second, not five, before the first frame.
+constexpr char kLiveOptions[] = ",jpeg_pipe|formatprobesize;65536|analyzeduration;1000000";
 constexpr char kNoLines[] = "-8";
 // Attempts to read while frames are expected: a damaged part fails once or twice.
 constexpr int kAttempts = 64;

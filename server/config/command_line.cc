@@ -99,7 +99,7 @@ void ApplyFile(const std::string& path, CLI::App* app) {
       message << path << ": unknown key \"" << name << '"';
       throw CLI::ValidationError("config", message.str());
     }
-    // As --check-config prints what is off.
+    // --check-config prints an option that is off as an empty text.
     const bool is_off = node.value<std::string>() == "" && option->get_default_str().empty();
     if (option->count() == 0 && !is_off) {
       option->add_result(option->get_flag_value(option->get_single_name(), TextOf(node)));

@@ -148,8 +148,8 @@ std::string TomlValue(const Value& value) {
 
 }  // namespace
 
-// What is off by default is left out, not empty: an unset variable of a script must not turn off
-// the tokens or the certificates.
+// A flag whose default is empty must not be given an empty text: with an unset variable in a script
+// the server would start without tokens or certificates.
 void AddServerOptions(CLI::App* app, ServerOptions* options) {
   for (const ServerOption& option : kOptions) {
     const std::string flag = absl::StrCat("--", option.name);
