@@ -1,5 +1,7 @@
 #include "client/homing_client.h"
 
+#include <algorithm>
+
 #include "client/answer_check.h"
 #include "client/exchange.h"
 #include "client/rpc_status.h"
@@ -19,8 +21,18 @@ absl::Status HomingClient::Localize(const LocalizingOptions& options,
   reported_ = -1;
   priors_.clear();
   ResendBuffer buffer(observations, options.replay);
+  window_ = options.window;
+  replay_ = options.replay;
   return Reconnecting(*connection_, stop, log_, [&](bool* progress) {
-    return Attempt(options, &buffer, on_answer, stop, progress);
+    absl::Status status = Attempt(options, &buffer, on_answer, stop, progress);
+    if (!IsReset(status)) {
+      window_ = options.window;
+      replay_ = options.replay;
+    } else if (!*progress) {
+      window_ = 1;
+      replay_ = std::max(1, replay_ / 4);
+    }
+    return status;
   });
 }
 
@@ -33,13 +45,13 @@ absl::Status HomingClient::Attempt(const LocalizingOptions& options, ResendBuffe
   AnswerLimit limit(&context, connection_->options().answer_time);
   v1::LocalizeRequest config;
   *config.mutable_config() = options.config;
-  const std::int64_t shift = buffer->RewindAll();
+  const std::int64_t shift = buffer->RewindTo(reported_ + 1 - replay_);
   if (const auto prior = priors_.find(shift - 1); prior != priors_.end()) {
     *config.mutable_config()->mutable_prior() = prior->second;
   }
   stream->Write(config);
   Exchange<v1::LocalizeRequest, v1::LocalizeResponse> exchange(&context, stream.get(), &limit,
-                                                               options.window);
+                                                               window_);
   const auto fill = [shift](const v1::Observation& observation, v1::LocalizeRequest* request) {
     *request->mutable_observation() = observation;
     request->mutable_observation()->set_sequence(observation.sequence() - shift);

@@ -23,7 +23,8 @@ struct LocalizingOptions {
   int window = 32;
   // Answered observations that are sent again after a broken link. The belief starts from the
   // answer before them; they restore the motion and the landmarks in view. A server that takes over
-  // many robots computes them all before it has a new answer. [1, 10000].
+  // many robots computes them all before it has a new answer. Fewer are sent if a proxy resets the
+  // stream before there is a new answer. [1, 10000].
   int replay = 24;
 };
 
@@ -56,6 +57,10 @@ class HomingClient {
   std::unique_ptr<v1::HomingService::StubInterface> stub_;
   // The last sequence given to on_answer.
   std::int64_t reported_ = -1;
+  // Of the next attempt: fewer than the options say if a proxy resets streams before they make
+  // progress, since it may do so after so many bytes.
+  int window_ = 1;
+  int replay_ = 1;
   // The robot's places at the last answers, by sequence: a new stream starts from the one before
   // the first observation that is sent again.
   std::map<std::int64_t, v1::LocalizePrior> priors_;

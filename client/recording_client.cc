@@ -22,7 +22,9 @@ absl::StatusOr<RecordingSummary> RecordingClient::Record(ObservationStream* obse
   observations_ = observations;
   ResendBuffer buffer(observations, options_.keep);
   HOMING_RETURN_IF_ERROR(Reconnecting(*connection_, stop, log_, [&](bool* progress) {
-    return Attempt(&buffer, on_answer, stop, progress);
+    absl::Status status = Attempt(&buffer, on_answer, stop, progress);
+    one_at_a_time_ = IsReset(status) && !*progress;
+    return status;
   }));
   summary_.reconnects = attempts_ - 1;
   return summary_;
@@ -35,14 +37,14 @@ absl::Status RecordingClient::Attempt(ResendBuffer* buffer, const OnAnswer& on_a
   const auto stream = stub_->RecordJourney(&context);
   AnswerLimit limit(&context, connection_->options().answer_time);
   limit.Await();
-  if (absl::Status status = Begin(stream.get(), buffer); !status.ok()) {
+  if (absl::Status status = Begin(stream.get(), buffer, progress); !status.ok()) {
     context.TryCancel();
     return limit.Explain(status);
   }
   limit.Answered();
   limit.Continue();
-  Exchange<v1::RecordJourneyRequest, v1::RecordJourneyResponse> exchange(&context, stream.get(),
-                                                                         &limit, options_.window);
+  Exchange<v1::RecordJourneyRequest, v1::RecordJourneyResponse> exchange(
+      &context, stream.get(), &limit, one_at_a_time_ ? 1 : options_.window);
   const auto fill = [](const v1::Observation& observation, v1::RecordJourneyRequest* request) {
     *request->mutable_observation() = observation;
   };
@@ -53,7 +55,7 @@ absl::Status RecordingClient::Attempt(ResendBuffer* buffer, const OnAnswer& on_a
   return summary_.next_sequence < buffer->sent() ? EndedEarly() : absl::OkStatus();
 }
 
-absl::Status RecordingClient::Begin(Stream* stream, ResendBuffer* buffer) {
+absl::Status RecordingClient::Begin(Stream* stream, ResendBuffer* buffer, bool* progress) {
   v1::RecordJourneyRequest request;
   request.mutable_config()->set_journey(options_.journey);
   request.mutable_config()->set_writer_id(options_.writer_id);
@@ -67,6 +69,7 @@ absl::Status RecordingClient::Begin(Stream* stream, ResendBuffer* buffer) {
   const std::int64_t resend_from =
       first.has_resend_from() ? std::min(first.resend_from(), durable) : durable;
   HOMING_RETURN_IF_ERROR(CheckAnswer(resend_from, durable, buffer->sent()));
+  *progress = attempts_ > 0 && durable > summary_.next_sequence;
   if (attempts_++ == 0) {
     summary_.begun_at = durable;
     if (durable > 0) log_(absl::StrCat("resuming at observation ", durable));

@@ -60,7 +60,7 @@ class RecordingClient {
   absl::Status Attempt(ResendBuffer* buffer, const OnAnswer& on_answer, const std::stop_token& stop,
                        bool* progress);
   // Sends the config, reads the first answer and rewinds the buffer.
-  absl::Status Begin(Stream* stream, ResendBuffer* buffer);
+  absl::Status Begin(Stream* stream, ResendBuffer* buffer, bool* progress);
   absl::Status Answer(const v1::RecordJourneyResponse& response, ResendBuffer* buffer,
                       const OnAnswer& on_answer, bool* progress);
 
@@ -72,6 +72,9 @@ class RecordingClient {
   ObservationStream* observations_ = nullptr;
   RecordingSummary summary_;
   int attempts_ = 0;
+  // The last attempt was reset before it made progress: a proxy may close a stream after so many
+  // bytes, and drop what the server did not answer yet.
+  bool one_at_a_time_ = false;
   // The last sequence given to on_answer.
   std::int64_t reported_ = -1;
 };

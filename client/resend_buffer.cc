@@ -108,10 +108,10 @@ std::int64_t ResendBuffer::sent() const {
   return sent_;
 }
 
-std::int64_t ResendBuffer::RewindAll() {
+std::int64_t ResendBuffer::RewindTo(std::int64_t sequence) {
   const MutexLock lock(mutex_);
-  cursor_ = 0;
-  return kept_.empty() ? next_ : kept_.front()->sequence();
+  cursor_ = IndexOf(sequence);
+  return cursor_ < kept_.size() ? kept_[cursor_]->sequence() : next_;
 }
 
 }  // namespace homing::client

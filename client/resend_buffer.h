@@ -34,8 +34,8 @@ class ResendBuffer {
   // available from the stream.
   absl::Status Rewind(std::int64_t resend_from, std::int64_t durable);
 
-  // Sends all kept observations again. Returns the first sequence.
-  std::int64_t RewindAll();
+  // Sends all kept observations from `sequence` on again. Returns the first one's sequence.
+  std::int64_t RewindTo(std::int64_t sequence);
 
   // The sequence after the last one that was sent, or that the server had before. No honest answer
   // goes beyond it.

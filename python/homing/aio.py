@@ -81,10 +81,12 @@ class _Sender:
         await asyncio.gather(self._task, return_exceptions=True)
 
 
-async def _write(call: Any, sender: _Sender, wrap: Callable[[Any], Any],
-                 limit: AnswerLimit) -> None:
+async def _write(call: Any, sender: _Sender, wrap: Callable[[Any], Any], limit: AnswerLimit,
+                 room: asyncio.Semaphore) -> None:
+    """`room`: so many more may be sent before the next answer."""
     try:
         while True:
+            await room.acquire()
             observation = await sender.take()
             limit.sent()
             if observation is None:
@@ -142,6 +144,7 @@ class AsyncClient:
         try:
             while True:
                 limit = AnswerLimit(self._server.answer_time)
+                room = asyncio.Semaphore(1 if retry.one_at_a_time else window)
                 limit.sent()  # The first answer says where to begin.
                 call = self._journeys.RecordJourney(metadata=self._trace.metadata())
                 writing: Optional[asyncio.Future] = None
@@ -154,14 +157,17 @@ class AsyncClient:
                         reference = response.resend_from if has_reference else durable
                         if sender is None or writing is None:
                             outbox.begin(durable, min(reference, durable))
+                            if durable > reported + 1:
+                                retry.progress()
                             reported = max(reported, durable - 1)
                             if sender is None:
                                 # A source that begins again passes over what the server has.
-                                room = window + (0 if live else durable)
-                                sender = _Sender(observations, outbox, room)
+                                sender = _Sender(observations, outbox,
+                                                 window + (0 if live else durable))
                             writing = asyncio.ensure_future(
-                                _write(call, sender, _record_request, limit))
+                                _write(call, sender, _record_request, limit, room))
                             continue
+                        room.release()
                         sender.acknowledge(durable, reference)
                         if reported < response.sequence < durable:
                             reported = response.sequence
@@ -200,6 +206,7 @@ class AsyncClient:
         try:
             while True:
                 limit = AnswerLimit(self._server.answer_time)
+                room = asyncio.Semaphore(1 if retry.one_at_a_time else window)
                 call = self._homing.Localize(metadata=self._trace.metadata())
                 writing: Optional[asyncio.Future] = None
                 error: Optional[grpc.RpcError] = None
@@ -207,8 +214,10 @@ class AsyncClient:
                     await call.write(homing_service_pb2.LocalizeRequest(config=config))
                     writing = asyncio.ensure_future(_write(
                         call, sender,
-                        lambda seen: homing_service_pb2.LocalizeRequest(observation=seen), limit))
+                        lambda seen: homing_service_pb2.LocalizeRequest(observation=seen), limit,
+                        room))
                     async for response in limit.answers_async(call):
+                        room.release()
                         if response.sequence <= reported:
                             continue
                         sender.acknowledge(response.sequence + 1, response.sequence)

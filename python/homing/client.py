@@ -166,7 +166,7 @@ class Client:
             limit = AnswerLimit(self._server.answer_time)
             link = _Link(sender, config,
                          lambda seen: journey_service_pb2.RecordJourneyRequest(observation=seen),
-                         window, limit)
+                         1 if retry.one_at_a_time else window, limit)
             limit.sent()  # The first answer says where to begin.
             stream = self._journeys.RecordJourney(link.requests(),
                                                    metadata=self._trace.metadata())
@@ -177,6 +177,8 @@ class Client:
                     reference = response.resend_from if has_reference else durable
                     if not link.has_begun():
                         sender.begin(durable, min(reference, durable))
+                        if durable > reported + 1:
+                            retry.progress()
                         reported = max(reported, durable - 1)
                         link.begin()
                         continue
@@ -215,8 +217,8 @@ class Client:
             error: Optional[grpc.RpcError] = None
             limit = AnswerLimit(self._server.answer_time)
             link = _Link(sender, homing_service_pb2.LocalizeRequest(config=config),
-                         lambda seen: homing_service_pb2.LocalizeRequest(observation=seen), window,
-                         limit)
+                         lambda seen: homing_service_pb2.LocalizeRequest(observation=seen),
+                         1 if retry.one_at_a_time else window, limit)
             link.begin()
             stream = self._homing.Localize(link.requests(), metadata=self._trace.metadata())
             try:

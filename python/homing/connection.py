@@ -12,7 +12,7 @@ from typing import Optional, Sequence, Tuple, Union
 
 import grpc
 
-from .errors import HomingError, is_correctable, is_retriable
+from .errors import HomingError, is_correctable, is_reset, is_retriable
 
 _MAX_MESSAGE = 256 << 20
 _MAX_CORRECTIONS = 3
@@ -113,6 +113,9 @@ class Retry:
 
     def __init__(self, server: Server):
         self._retry_for = server.retry_for
+        # The last link was reset: a proxy may close a stream after so many bytes, and drop what the
+        # server did not answer yet.
+        self.one_at_a_time = False
         self.progress()
 
     def progress(self) -> None:
@@ -125,6 +128,7 @@ class Retry:
         """Seconds to wait; None: give up. The error of a stream that ended early is None. `quiet`:
         seconds since the last answer in which the link was not used."""
         self._last = min(self._last + quiet, time.monotonic())
+        self.one_at_a_time = error is not None and is_reset(error)
         if error is not None and is_correctable(error):
             self._corrections += 1
             if self._corrections > _MAX_CORRECTIONS:

@@ -42,6 +42,14 @@ def is_retriable(error: grpc.RpcError) -> bool:
                for key, value in trailers)
 
 
+def is_reset(error: grpc.RpcError) -> bool:
+    """Something between client and server, such as a proxy, reset the stream."""
+    return (error.code() in (grpc.StatusCode.INTERNAL, grpc.StatusCode.UNKNOWN)
+            and any(text in (error.details() or "")
+                    for text in ("RST_STREAM", "http2 header with status: ")))
+
+
 def is_correctable(error: grpc.RpcError) -> bool:
-    """The server expects another observation; the first answer of a new stream names it."""
-    return error.code() == grpc.StatusCode.OUT_OF_RANGE
+    """The server expects another observation, and the first answer of a new stream names it; or the
+    stream was reset."""
+    return error.code() == grpc.StatusCode.OUT_OF_RANGE or is_reset(error)

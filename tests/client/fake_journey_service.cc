@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <deque>
 #include <thread>
 
 #include "homing/base/mutex.h"
@@ -19,6 +20,60 @@ grpc::Status AwaitCancellation(const grpc::ServerContext& context) {
   while (!context.IsCancelled()) std::this_thread::sleep_for(std::chrono::milliseconds(5));
   return kLinkBroken;
 }
+
+const grpc::Status kReset(grpc::StatusCode::INTERNAL, "Received RST_STREAM with error code 2");
+
+// What arrives through a proxy that resets the link once `most` observations have arrived, whether
+// they are computed or not. Each takes 20 ms.
+template <typename Stream, typename Request>
+class ProxyLink {
+ public:
+  ProxyLink(Stream* stream, int most)
+      : most_(most), reader_([this, stream] { ReadAhead(stream); }) {}
+  // The link was reset or has ended.
+  ~ProxyLink() { reader_.join(); }
+
+  // False: the link was reset or has ended.
+  bool Read(Request* request) {
+    const MutexLock lock(mutex_);
+    while (waiting_.empty() && !ended_) changed_.Wait(mutex_);
+    const auto computed = std::chrono::steady_clock::now() + std::chrono::milliseconds(20);
+    while (!ended_ && changed_.WaitUntil(mutex_, computed)) {
+    }
+    if (arrived_ == most_ || waiting_.empty()) return false;
+    *request = std::move(waiting_.front());
+    waiting_.pop_front();
+    return true;
+  }
+  grpc::Status status() const {
+    const MutexLock lock(mutex_);
+    return arrived_ == most_ ? kReset : grpc::Status::OK;
+  }
+
+ private:
+  void ReadAhead(Stream* stream) {
+    Request request;
+    bool more = true;
+    while (more) {
+      more = stream->Read(&request);
+      const MutexLock lock(mutex_);
+      if (more) {
+        waiting_.push_back(request);
+        more = ++arrived_ < most_;
+      }
+      ended_ = !more;
+      changed_.NotifyAll();
+    }
+  }
+
+  const int most_;
+  mutable Mutex mutex_;
+  ConditionVariable changed_;
+  std::deque<Request> waiting_ HOMING_GUARDED_BY(mutex_);
+  int arrived_ HOMING_GUARDED_BY(mutex_) = 0;
+  bool ended_ HOMING_GUARDED_BY(mutex_) = false;
+  std::thread reader_;
+};
 
 }  // namespace
 
@@ -72,6 +127,14 @@ grpc::Status FakeJourneyService::RecordJourney(grpc::ServerContext* context, Rec
     first.set_resend_from(durable + 1);
   }
   stream->Write(first);
+  if (faults_.proxy_resets_after > 0) {
+    ProxyLink<RecordStream, v1::RecordJourneyRequest> proxy(stream, faults_.proxy_resets_after);
+    while (proxy.Read(&request)) {
+      Store(request.observation());
+      Answer(stream, request.observation().sequence());
+    }
+    return proxy.status();
+  }
   int received = 0;
   while (break_after != received && stream->Read(&request)) {
     ++received;
@@ -86,6 +149,13 @@ grpc::Status FakeJourneyService::RecordJourney(grpc::ServerContext* context, Rec
   return break_after == received ? Broken() : grpc::Status::OK;
 }
 
+void FakeJourneyService::AnswerHome(HomeStream* stream, std::int64_t sequence) {
+  v1::LocalizeResponse answer;
+  answer.set_sequence(sequence);
+  if (faults_.lie_home) faults_.lie_home(&answer);
+  stream->Write(answer);
+}
+
 grpc::Status FakeJourneyService::Localize(
     grpc::ServerContext* context,
     grpc::ServerReaderWriter<v1::LocalizeResponse, v1::LocalizeRequest>* stream) {
@@ -94,16 +164,18 @@ grpc::Status FakeJourneyService::Localize(
   const int break_after = BreakAfter(link);
   v1::LocalizeRequest request;
   stream->Read(&request);
+  if (faults_.proxy_resets_after > 0) {
+    ProxyLink<HomeStream, v1::LocalizeRequest> proxy(stream, faults_.proxy_resets_after);
+    while (proxy.Read(&request)) AnswerHome(stream, request.observation().sequence());
+    return proxy.status();
+  }
   int received = 0;
   while (break_after != received && stream->Read(&request)) {
     if (request.observation().sequence() != received) {
       return {grpc::StatusCode::OUT_OF_RANGE, "gap in sequence"};
     }
     ++received;
-    v1::LocalizeResponse answer;
-    answer.set_sequence(request.observation().sequence());
-    if (faults_.lie_home) faults_.lie_home(&answer);
-    stream->Write(answer);
+    AnswerHome(stream, request.observation().sequence());
   }
   return break_after == received ? Broken() : grpc::Status::OK;
 }

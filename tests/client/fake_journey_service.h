@@ -28,6 +28,9 @@ struct Faults {
   int look_back = 1;
   // A link ends without an error instead of breaking.
   bool breaks_silently = false;
+  // A proxy between: it resets a link that brings so many observations, and what the server has not
+  // computed yet, 20 ms each, is lost. 0: none.
+  int proxy_resets_after = 0;
   // So many links are accepted, and never answer.
   int silent_links = 0;
   // Nothing is stored.
@@ -60,12 +63,15 @@ class FakeJourneyService : public v1::JourneyService::Service, public v1::Homing
   using RecordStream =
       grpc::ServerReaderWriter<v1::RecordJourneyResponse, v1::RecordJourneyRequest>;
 
+  using HomeStream = grpc::ServerReaderWriter<v1::LocalizeResponse, v1::LocalizeRequest>;
+
   int BeginLink();
   int BreakAfter(int link) const;
   grpc::Status Broken() const;
   // False: a gap.
   bool Store(const v1::Observation& observation);
   void Answer(RecordStream* stream, std::int64_t sequence);
+  void AnswerHome(HomeStream* stream, std::int64_t sequence);
 
   Faults faults_;
   mutable Mutex mutex_;

@@ -57,5 +57,17 @@ TEST(HomingClientTest, ReplaysTheLastStepsAfterABrokenLink) {
   }
 }
 
+// It cannot send the last five answered ones again: they would fill the link.
+TEST(HomingClientTest, GetsThroughAProxyThatResetsAfterThreeObservations) {
+  Faults faults;
+  faults.proxy_resets_after = 3;
+  absl::Status status;
+  int links = 0;
+  std::vector<std::int64_t> expected(8);
+  std::iota(expected.begin(), expected.end(), 0);
+  EXPECT_EQ(Localize(faults, 8, &status, &links), expected);
+  EXPECT_THAT(status, IsOk());
+}
+
 }  // namespace
 }  // namespace homing::client

@@ -107,6 +107,17 @@ TEST_F(RecordingClientTest, ResumesAfterManyBrokenLinks) {
   EXPECT_EQ(Stored(service), Range(40));
 }
 
+TEST_F(RecordingClientTest, GetsThroughAProxyThatResetsAfterThreeObservations) {
+  Faults faults;
+  faults.proxy_resets_after = 3;
+  FakeJourneyService service(faults);
+  FakeServer server(&service);
+  NumberedStream stream(6);
+  ASSERT_THAT(Record(Connect(server.address()), &stream), IsOk());
+  EXPECT_EQ(Stored(service), Range(6));
+  EXPECT_EQ(Breaks(service), 0);
+}
+
 TEST_F(RecordingClientTest, SendsTheReferenceAgainAfterABreak) {
   Faults faults;
   faults.break_after_received = {10};

@@ -103,7 +103,7 @@ TEST(ResendBufferTest, KeepsNoMoreThanConfigured) {
   ResendBuffer buffer(&stream, 4);
   Send(buffer, 1000);
   buffer.Acknowledge(1000);
-  EXPECT_EQ(buffer.RewindAll(), 996);
+  EXPECT_EQ(buffer.RewindTo(0), 996);
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 
 #include <fstream>
 #include <thread>
+#include <utility>
 
 #include "tests/integration/cli_fixture.h"
 
@@ -74,6 +75,21 @@ TEST_F(CliProxyTest, ARecordingThatIsBrokenOffGoesOnToItsEnd) {
   const std::string straight = "robots/a/journeys/straight";
   ASSERT_EQ(Homing({"record", "--journey", straight, "--left", scene, "--right", scene}).code, 0);
   EXPECT_TRUE(Export(straight) == through) << "the maps differ";
+}
+
+// The last answered observations, which are sent again after a broken link, alone are more than a
+// MiB.
+TEST_F(CliProxyTest, LocalisingGoesOnToItsEnd) {
+  const std::string scene = "sim:street,length=8";
+  const std::string proxy = std::exchange(address_, server_address_);
+  ASSERT_EQ(Homing({"record", "--journey", kJourney, "--left", scene, "--right", scene}).code, 0);
+  address_ = proxy;
+  const std::string home = scene + ",travel=return";
+  const Ran ran =
+      Homing({"--json", "localize", "--journey", kJourney, "--left", home, "--right", home});
+  EXPECT_EQ(ran.code, 0) << ran.errors;
+  EXPECT_THAT(ran.errors, HasSubstr("link lost"));
+  EXPECT_GE(ran.lines.size(), 30U);
 }
 
 }  // namespace

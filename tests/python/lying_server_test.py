@@ -45,14 +45,38 @@ def impatient(requests, seconds):
         yield request
 
 
+def through_a_proxy(requests, context):
+    """One that resets the stream if two observations arrive before the first one is computed."""
+    come = queue.Queue()
+
+    def read():
+        try:
+            for request in requests:
+                come.put(request)
+        except grpc.RpcError:
+            pass
+        come.put(None)
+
+    threading.Thread(target=read, daemon=True).start()
+    while True:
+        request = come.get()
+        if request is None:
+            return
+        time.sleep(0 if request.HasField("config") else 0.05)
+        if not come.empty() and come.queue[0] is not None:
+            context.abort(grpc.StatusCode.INTERNAL, "Received RST_STREAM with error code 2")
+        yield request
+
+
 class LyingServer(journey_service_pb2_grpc.JourneyServiceServicer,
                   homing_service_pb2_grpc.HomingServiceServicer):
     """Ends a stream without an error after `ends_after` observations; `lie` changes each answer;
     `silent` streams are accepted and never answer; a stream without requests for `patience` s ends;
-    of each method the first `cancelled` calls are cancelled."""
+    of each method the first `cancelled` calls are cancelled; `proxy` sits in front of it."""
 
     def __init__(self, ends_after=None, lie=lambda answer: None, silent=0, answer_time=60,
-                 retry_for=0.5, patience=60, cancelled=0):
+                 retry_for=0.5, patience=60, cancelled=0, proxy=False):
+        self.proxy = proxy
         self.cancelled = {name: cancelled for name in ("create", "finish", "record", "localize")}
         self.patience = patience
         self.silent = silent
@@ -93,10 +117,15 @@ class LyingServer(journey_service_pb2_grpc.JourneyServiceServicer,
         while self.silent >= 0 and context.is_active():
             time.sleep(0.01)
 
+    def arriving(self, requests, context):
+        if self.proxy:
+            return through_a_proxy(requests, context)
+        return impatient(requests, self.patience)
+
     def RecordJourney(self, requests, context):
         self.cancel_first("record", context)
         self.fall_silent(context)
-        requests = impatient(requests, self.patience)
+        requests = self.arriving(requests, context)
         next(requests)
         answer = journey_service_pb2.RecordJourneyResponse
         yield answer(next_sequence=self.stored, resend_from=self.stored)
@@ -112,7 +141,7 @@ class LyingServer(journey_service_pb2_grpc.JourneyServiceServicer,
     def Localize(self, requests, context):
         self.cancel_first("localize", context)
         self.fall_silent(context)
-        requests = impatient(requests, self.patience)
+        requests = self.arriving(requests, context)
         next(requests)
         for count, request in enumerate(requests, 1):
             if count == self.ends_after:
@@ -162,6 +191,11 @@ class LyingServerTest(unittest.TestCase):
     def test_a_stream_that_ends_early_without_an_error_is_a_lost_link(self):
         for run in RECORDING + LOCALISING:
             with LyingServer(ends_after=4) as liar:
+                self.assertEqual([answer.sequence for answer in run(liar)], list(range(COUNT)))
+
+    def test_a_proxy_that_resets_the_stream_gets_one_at_a_time(self):
+        for run in RECORDING + LOCALISING:
+            with LyingServer(proxy=True, retry_for=30) as liar:
                 self.assertEqual([answer.sequence for answer in run(liar)], list(range(COUNT)))
 
     def test_what_is_not_acknowledged_is_not_finished(self):
