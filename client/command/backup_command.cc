@@ -19,7 +19,7 @@ absl::Status BackUp(const Session& session, const std::string& path) {
   if (path == "-") return WriteStandardOutput(write);
   HOMING_ASSIGN_OR_RETURN(const std::uintmax_t bytes, WriteOutputFile(path, write, session.stop));
   if (session.json) return session.PrintJson(Json{{"file", path}, {"bytes", bytes}});
-  return session.Print(absl::StrCat(path, ": ", bytes, " bytes"));
+  return session.Print(WrittenFile(path, bytes));
 }
 
 }  // namespace

@@ -176,7 +176,7 @@ absl::Status Export(const Session& session, const JourneysFlags& flags) {
     return session.PrintJson(
         Json{{"journey", flags.journey}, {"file", flags.file}, {"bytes", bytes}});
   }
-  return session.Print(absl::StrCat(flags.file, ": ", bytes, " bytes"));
+  return session.Print(WrittenFile(flags.file, bytes));
 }
 
 absl::Status Import(const Session& session, const JourneysFlags& flags) {

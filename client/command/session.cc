@@ -27,6 +27,10 @@ std::string AdviceOn(const absl::Status& status) {
     return "give another name; homing journeys delete removes a journey";
   }
   if (absl::IsUnimplemented(status)) return "the server is older than this program";
+  if (IsReset(status)) {
+    return "a proxy in between closed the stream, perhaps after so many bytes: for nginx, "
+           "client_max_body_size 0";
+  }
   if (absl::IsResourceExhausted(status) && absl::StrContains(status.message(), "larger than max")) {
     return "a message was too large: --send flow sends far less, and the server takes more with "
            "--max-message";

@@ -120,4 +120,9 @@ absl::StatusOr<std::uintmax_t> WriteOutputFile(const std::string& path, const Wr
   return error ? 0 : size;
 }
 
+std::string WrittenFile(const std::string& path, std::uintmax_t bytes) {
+  // Nobody counts what a device or a pipe takes.
+  return bytes > 0 ? absl::StrCat(path, ": ", bytes, " bytes") : absl::StrCat(path, ": written");
+}
+
 }  // namespace homing::client

@@ -46,6 +46,9 @@ absl::StatusOr<std::uintmax_t> WriteOutputFile(
     const std::string& path, const std::function<absl::Status(std::ostream&)>& write,
     const std::stop_token& stop = {});
 
+// "PATH: 12 bytes", for the user.
+std::string WrittenFile(const std::string& path, std::uintmax_t bytes);
+
 }  // namespace homing::client
 
 #endif  // CLIENT_FILE_OUTPUT_FILE_H_

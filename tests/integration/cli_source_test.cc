@@ -140,13 +140,27 @@ TEST_F(CliSourceTest, ErrorsOfLocalFilesAreTheSystems) {
   }
 }
 
-TEST_F(CliSourceTest, ExportKeepsLinksAndRefusesReadOnlyFiles) {
+TEST_F(CliSourceTest, ExportAndBackupKeepLinksAndWriteIntoDevices) {
   ASSERT_EQ(Record("sim:street,length=2").code, 0);
-  std::ofstream(Path("target")) << "old";
-  std::filesystem::create_symlink(Path("target"), Path("link"));
-  EXPECT_EQ(Homing({"journeys", "export", kJourney, Path("link")}).code, 0);
-  EXPECT_TRUE(std::filesystem::is_symlink(Path("link")));
-  EXPECT_GT(std::filesystem::file_size(Path("target")), 3U);
+  const std::vector<std::string> exporting = {"journeys", "export", kJourney};
+  for (std::vector<std::string> command : {exporting, {"backup"}}) {
+    std::ofstream(Path("target")) << "old";
+    std::filesystem::create_symlink(Path("target"), Path("link"));
+    command.push_back(Path("link"));
+    EXPECT_EQ(Homing(command).code, 0);
+    EXPECT_TRUE(std::filesystem::is_symlink(Path("link")));
+    EXPECT_GT(std::filesystem::file_size(Path("target")), 3U);
+    std::filesystem::remove(Path("link"));
+    command.back() = "/dev/null";
+    const Ran ran = Homing(command);
+    EXPECT_EQ(ran.code, 0) << ran.errors;
+    EXPECT_EQ(ran.lines, std::vector<std::string>{"/dev/null: written"});
+    EXPECT_TRUE(std::filesystem::is_character_file("/dev/null"));
+  }
+}
+
+TEST_F(CliSourceTest, ExportRefusesReadOnlyFiles) {
+  ASSERT_EQ(Record("sim:street,length=2").code, 0);
   std::ofstream(Path("kept")) << "kept";
   std::filesystem::permissions(Path("kept"), std::filesystem::perms::owner_read);
   const Ran refused = Homing({"journeys", "export", kJourney, Path("kept")});
