@@ -118,6 +118,8 @@ struct HomingServer::State {
   absl::Status Listen(const ServerOptions& options);
   absl::Status ServeHttp(const ServerOptions& options);
 
+  // Null: plain text.
+  std::unique_ptr<TlsFiles> tls_files;
   // Reset once drained.
   std::unique_ptr<ServiceCore> core;
   JourneyServiceHandler journeys;
@@ -137,7 +139,11 @@ struct HomingServer::State {
 };
 
 absl::Status HomingServer::State::Listen(const ServerOptions& options) {
-  HOMING_ASSIGN_OR_RETURN(const auto credentials, MakeServerCredentials(options, core->access));
+  if (!options.tls_cert.empty()) {
+    HOMING_ASSIGN_OR_RETURN(
+        tls_files, TlsFiles::Open(options.tls_cert, options.tls_key, options.tls_client_ca));
+  }
+  const auto credentials = MakeServerCredentials(options, tls_files.get(), core->access);
   grpc::EnableDefaultHealthCheckService(true);
   grpc::reflection::InitProtoReflectionServerBuilderPlugin();
   grpc::ServerBuilder builder;
@@ -231,8 +237,10 @@ absl::StatusOr<std::unique_ptr<HomingServer>> HomingServer::Start(
   HOMING_RETURN_IF_ERROR(state->ServeHttp(options));
   state->housekeeping = std::make_unique<Housekeeping>(
       state->core.get(), std::chrono::seconds(options.reload_s), CertificateFilesOf(options),
-      [console = state->console.get()] {
-        return console == nullptr ? absl::OkStatus() : console->ReloadCertificate();
+      [tls_files = state->tls_files.get(), console = state->console.get()] {
+        absl::Status status = tls_files == nullptr ? absl::OkStatus() : tls_files->Reload();
+        if (console != nullptr) status.Update(console->ReloadCertificate());
+        return status;
       });
   return std::unique_ptr<HomingServer>(new HomingServer(std::move(state)));
 }

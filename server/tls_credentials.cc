@@ -7,14 +7,15 @@
 #include <string>
 #include <utility>
 
-#include "homing/base/status_macros.h"
-#include "server/access/key_pair.h"
 #include "server/rpc/status_conversion.h"
 
 namespace homing::server {
 namespace {
 
 namespace tls = grpc::experimental;
+
+// How often gRPC looks at the copies in memory, which change at a reload.
+constexpr unsigned int kLookEveryS = 1;
 
 std::string StringOf(const grpc::string_ref& text) { return std::string(text.data(), text.size()); }
 
@@ -42,16 +43,12 @@ class ClientVerifier : public tls::ExternalCertificateVerifier {
 
 }  // namespace
 
-absl::StatusOr<std::shared_ptr<grpc::ServerCredentials>> MakeServerCredentials(
-    const ServerOptions& options, std::shared_ptr<const AccessControl> access) {
-  if (options.tls_cert.empty()) {
-    return grpc::InsecureServerCredentials();
-  }
-  HOMING_RETURN_IF_ERROR(CheckKeyPair(options.tls_cert, options.tls_key));
-  const auto files = std::make_shared<tls::FileWatcherCertificateProvider>(
-      options.tls_key, options.tls_cert, options.tls_client_ca,
-      static_cast<unsigned int>(options.reload_s));
-  tls::TlsServerCredentialsOptions settings(files);
+std::shared_ptr<grpc::ServerCredentials> MakeServerCredentials(
+    const ServerOptions& options, const TlsFiles* files,
+    std::shared_ptr<const AccessControl> access) {
+  if (files == nullptr) return grpc::InsecureServerCredentials();
+  tls::TlsServerCredentialsOptions settings(std::make_shared<tls::FileWatcherCertificateProvider>(
+      files->key(), files->certificate(), files->client_ca(), kLookEveryS));
   settings.watch_identity_key_cert_pairs();
   if (!options.tls_client_ca.empty()) {
     settings.watch_root_certs();

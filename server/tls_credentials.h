@@ -6,17 +6,18 @@
 
 #include <memory>
 
-#include "absl/status/statusor.h"
 #include "server/access/access_control.h"
 #include "server/access/certificate_expiry.h"
+#include "server/access/tls_files.h"
 #include "server/config/server_options.h"
 
 namespace homing::server {
 
-// Plain text without tls_cert. With a client CA, the handshake also checks with `access`; clients
-// without a certificate are accepted only if tokens are in use. INVALID_ARGUMENT: a file is bad.
-absl::StatusOr<std::shared_ptr<grpc::ServerCredentials>> MakeServerCredentials(
-    const ServerOptions& options, std::shared_ptr<const AccessControl> access);
+// Plain text without `files`, which must outlive the server. With a client CA, the handshake also
+// checks with `access`; clients without a certificate are accepted only if tokens are in use.
+std::shared_ptr<grpc::ServerCredentials> MakeServerCredentials(
+    const ServerOptions& options, const TlsFiles* files,
+    std::shared_ptr<const AccessControl> access);
 
 // The files whose ends Housekeeping and the metrics watch.
 CertificateFiles CertificateFilesOf(const ServerOptions& options);

@@ -1,5 +1,7 @@
 #include "server/admission/journey_quota.h"
 
+#include <spdlog/spdlog.h>
+
 #include <algorithm>
 #include <functional>
 
@@ -50,6 +52,11 @@ std::int64_t QuotaBytes(const storage::JourneyRecord& record) {
   return record.fingerprint_count * kFingerprintBytes + record.step_count * kStepBytes;
 }
 
+std::int64_t QuotaBytes(const JourneyMap& map) {
+  const auto fingerprints = static_cast<std::int64_t>(map.all_fingerprints().size());
+  return fingerprints * kFingerprintBytes + map.step_count() * kStepBytes;
+}
+
 absl::StatusOr<JourneyQuota::Usage> JourneyQuota::UsageOf(const std::string& robot) {
   Usage usage;
   HOMING_RETURN_IF_ERROR(ForEach(catalog_, robot, [&](const storage::JourneyRecord& record) {
@@ -66,16 +73,18 @@ absl::StatusOr<JourneyQuota::Usage> JourneyQuota::UsageOf(const std::string& rob
 }
 
 absl::Status JourneyQuota::FindExcess(const std::string& robot, const Usage& usage,
-                                      std::int64_t more_journeys) const {
+                                      const Usage& more) const {
   const std::int64_t most = limits_.max_robot_journeys;
-  if (most > 0 && more_journeys > 0 && usage.journeys + more_journeys > most) {
+  if (most > 0 && more.journeys > 0 && usage.journeys + more.journeys > most) {
     return Full(robot, "ROBOT_JOURNEYS",
                 absl::StrCat(usage.journeys, " journeys and max-robot-journeys is ", most));
   }
-  if (limits_.max_robot_bytes > 0 && usage.bytes >= limits_.max_robot_bytes) {
-    return Full(
-        robot, "ROBOT_BYTES",
-        absl::StrCat(usage.bytes, " bytes and max-robot-bytes is ", limits_.max_robot_bytes));
+  const std::int64_t most_bytes = limits_.max_robot_bytes;
+  if (most_bytes > 0 && (usage.bytes >= most_bytes || usage.bytes + more.bytes > most_bytes)) {
+    const std::string with =
+        more.bytes > 0 ? absl::StrCat(", with this journey ", usage.bytes + more.bytes, ",") : "";
+    return Full(robot, "ROBOT_BYTES",
+                absl::StrCat(usage.bytes, " bytes", with, " and max-robot-bytes is ", most_bytes));
   }
   return absl::OkStatus();
 }
@@ -88,31 +97,37 @@ absl::Status JourneyQuota::Delete(const std::string& name) {
   return absl::IsNotFound(status) ? absl::OkStatus() : status;
 }
 
-absl::Status JourneyQuota::Check(const std::string& robot, std::int64_t more_journeys) {
+absl::Status JourneyQuota::Check(const std::string& robot, const Usage& more) {
   HOMING_ASSIGN_OR_RETURN(Usage usage, UsageOf(robot));
-  absl::Status excess = FindExcess(robot, usage, more_journeys);
+  absl::Status excess = FindExcess(robot, usage, more);
   if (!limits_.delete_oldest) {
     return excess;
   }
+  std::vector<std::string> names;
   for (const storage::JourneyRecord& oldest : usage.finished) {
     if (excess.ok()) {
       break;
     }
-    HOMING_RETURN_IF_ERROR(Delete(oldest.name));
+    names.push_back(oldest.name);
     --usage.journeys;
     usage.bytes -= QuotaBytes(oldest);
-    excess = FindExcess(robot, usage, more_journeys);
+    excess = FindExcess(robot, usage, more);
   }
-  return excess;
+  HOMING_RETURN_IF_ERROR(excess);
+  for (const std::string& name : names) {
+    HOMING_RETURN_IF_ERROR(Delete(name));
+    spdlog::info("delete-oldest: {} deleted", name);
+  }
+  return absl::OkStatus();
 }
 
-absl::Status JourneyQuota::CheckNew(const std::string& name) {
+absl::Status JourneyQuota::CheckNew(const std::string& name, std::int64_t bytes) {
   const bool is_limited = limits_.max_robot_journeys > 0 || limits_.max_robot_bytes > 0;
   if (!is_limited || catalog_->Get(name).ok()) {
     return absl::OkStatus();
   }
   HOMING_ASSIGN_OR_RETURN(const JourneyName parsed, ParseJourneyName(name, "journey"));
-  return Check(parsed.robot, 1);
+  return Check(parsed.robot, {.journeys = 1, .bytes = bytes, .finished = {}});
 }
 
 absl::Status JourneyQuota::CheckGrowth(const std::string& name) {
@@ -120,7 +135,7 @@ absl::Status JourneyQuota::CheckGrowth(const std::string& name) {
     return absl::OkStatus();
   }
   HOMING_ASSIGN_OR_RETURN(const JourneyName parsed, ParseJourneyName(name, "journey"));
-  return Check(parsed.robot, 0);
+  return Check(parsed.robot, {});
 }
 
 absl::StatusOr<std::int64_t> JourneyQuota::DeleteExpired(std::int64_t now_ns,

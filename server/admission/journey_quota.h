@@ -16,6 +16,7 @@ namespace homing::server {
 
 // The bytes that count towards max-robot-bytes.
 std::int64_t QuotaBytes(const storage::JourneyRecord& record);
+std::int64_t QuotaBytes(const JourneyMap& map);
 
 // Thread-safe. Two journeys created at the same instant may both take the last place.
 class JourneyQuota {
@@ -24,9 +25,10 @@ class JourneyQuota {
   JourneyQuota(JourneyCatalog* catalog, const Limits& limits)
       : catalog_(catalog), limits_(limits) {}
 
-  // Call it before a journey of that name is created. OK if it exists. RESOURCE_EXHAUSTED naming
-  // the limit; with delete_oldest the robot's oldest finished journeys are deleted instead.
-  absl::Status CheckNew(const std::string& name);
+  // Call it just before a journey of that name is created, when nothing else can refuse it. OK if
+  // it exists. `bytes`: of a map that comes with it. RESOURCE_EXHAUSTED naming the limit; with
+  // delete_oldest the robot's oldest finished journeys are deleted instead, if that makes room.
+  absl::Status CheckNew(const std::string& name, std::int64_t bytes = 0);
   // Call it before a journey grows. As CheckNew, for bytes only.
   absl::Status CheckGrowth(const std::string& name);
   // Deletes finished journeys created before `now_ns` - delete_after_s, but not before
@@ -44,9 +46,8 @@ class JourneyQuota {
     std::vector<storage::JourneyRecord> finished;
   };
   absl::StatusOr<Usage> UsageOf(const std::string& robot);
-  absl::Status Check(const std::string& robot, std::int64_t more_journeys);
-  absl::Status FindExcess(const std::string& robot, const Usage& usage,
-                          std::int64_t more_journeys) const;
+  absl::Status Check(const std::string& robot, const Usage& more);
+  absl::Status FindExcess(const std::string& robot, const Usage& usage, const Usage& more) const;
   absl::Status Delete(const std::string& name);
 
   JourneyCatalog* const catalog_;

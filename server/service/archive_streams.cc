@@ -133,11 +133,11 @@ absl::Status ImportStream::Store() {
   }
   // gRPC reports the end of a cancelled stream like the end of a complete one.
   HOMING_RETURN_IF_ERROR(CheckAwaited(&watch_));
-  HOMING_RETURN_IF_ERROR(core_->quota.CheckNew(name_));
   HOMING_ASSIGN_OR_RETURN(ArchivedJourney archive, DecodeJourney(file_, &watch_));
   archive.record.name = name_;
   archive.record.create_time_ns = absl::GetCurrentTimeNanos();
   HOMING_RETURN_IF_ERROR(CheckAwaited(&watch_));
+  HOMING_RETURN_IF_ERROR(core_->quota.CheckNew(name_, QuotaBytes(archive.map)));
   HOMING_ASSIGN_OR_RETURN(const storage::JourneyRecord record,
                           core_->catalog.Import(archive.record, archive.map));
   *response_.mutable_journey() = EncodeJourneyRecord(record);

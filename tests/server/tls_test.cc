@@ -175,6 +175,28 @@ TEST_F(TlsTest, TheServersCertificateIsExchangedWithoutARestart) {
   EXPECT_THAT(Create("more"), GrpcStatusIs(grpc::StatusCode::UNAVAILABLE, HasSubstr("")));
 }
 
+TEST_F(TlsTest, AFileThatIsBeingWrittenLeavesTheOldOneInUse) {
+  const std::string authority = Read(pki("ca.pem"));
+  const KeyAndCertificate robot = {Read(pki("robots/r1.key")), Read(pki("robots/r1.pem"))};
+  const std::string other = CertificateAuthority::Make("Another", std::chrono::hours(24))
+                                ->Issue({"s", {"DNS:localhost"}, true})
+                                ->certificate;
+  for (const std::string name : {"server.pem", "server.key", "ca.pem"}) {
+    const std::string whole = Read(pki(name));
+    for (const std::string& content : {std::string(), whole.substr(0, whole.size() / 2), other}) {
+      // Other authorities are no mistake that anyone could notice.
+      if (name == "ca.pem" && content == other) continue;
+      std::ofstream(pki(name)) << content;
+      server_->Reload();
+      // gRPC looks at its files each second.
+      std::this_thread::sleep_for(std::chrono::milliseconds(1300));
+      EXPECT_THAT(Get(Dial(robot, authority)), IsGrpcOk())
+          << name << " of " << content.size() << " bytes";
+    }
+    std::ofstream(pki(name)) << whole;
+  }
+}
+
 TEST_F(TlsTest, WithTokensACertificateMayBeMissingButNotAnothers) {
   options_.tokens = folder_.File("tokens.toml");
   ASSERT_THAT(AddToken(options_.tokens, "robots/r9", HashToken("token-of-r9")), IsOk());

@@ -5,7 +5,6 @@
 #include <fstream>
 
 #include "server/access/certificate_authority.h"
-#include "server/access/key_pair.h"
 #include "tests/support/status_matchers.h"
 #include "tests/support/temporary_folder.h"
 
@@ -103,21 +102,6 @@ TEST_F(ClientCertificatesTest, RevokingMoreKeepsThoseRevokedBefore) {
   const auto certificates = Open(folder_.File("crl"));
   EXPECT_THAT(certificates->Check(first), IsRefused("revoked"));
   EXPECT_THAT(certificates->Check(second), IsRefused("revoked"));
-}
-
-TEST_F(ClientCertificatesTest, AKeyMustBeItsCertificates) {
-  const auto server = authority_.Issue({"s", {"DNS:localhost"}, true}).value();
-  const auto other = authority_.Issue({"s", {"DNS:localhost"}, true}).value();
-  Write("server.pem", server.certificate);
-  Write("server.key", server.key);
-  Write("other.key", other.key);
-  EXPECT_THAT(CheckKeyPair(folder_.File("server.pem"), folder_.File("server.key")), IsOk());
-  EXPECT_THAT(CheckKeyPair(folder_.File("server.pem"), folder_.File("other.key")),
-              StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("not the key")));
-  EXPECT_THAT(CheckKeyPair(folder_.File("server.key"), folder_.File("server.key")),
-              StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("tls-cert")));
-  EXPECT_THAT(CheckKeyPair(folder_.File("server.pem"), folder_.File("none")),
-              StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("tls-key")));
 }
 
 }  // namespace

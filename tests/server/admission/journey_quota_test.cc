@@ -65,6 +65,17 @@ TEST_F(JourneyQuotaTest, WithDeleteOldestTheOldestFinishedOneIsDeleted) {
   EXPECT_EQ(quota.deleted(), 1);
 }
 
+TEST_F(JourneyQuotaTest, NothingIsDeletedIfThatMakesNoRoom) {
+  Make("big", 2, false);
+  RecordFlow(0, 10, Name("big"));
+  Make("small", 1, true);
+  limits_.max_robot_bytes = QuotaBytes(catalog_->Get(Name("big")).value());
+  limits_.delete_oldest = true;
+  JourneyQuota quota(catalog_.get(), limits_);
+  EXPECT_EQ(ReasonOf(quota.CheckNew(Name("more"))).reason, "ROBOT_BYTES");
+  EXPECT_TRUE(IsThere("small"));
+}
+
 TEST_F(JourneyQuotaTest, JourneysBeingRecordedAreNeverDeleted) {
   limits_.max_robot_journeys = 1;
   limits_.delete_oldest = true;

@@ -295,5 +295,35 @@ TEST_F(JourneyServiceTest, WrongImportsAreRefused) {
   EXPECT_EQ(page.journeys_size(), 1);
 }
 
+TEST_F(JourneyServiceTest, AnImportCountsTowardsTheRobotsBytes) {
+  ASSERT_THAT(Create(), IsGrpcOk());
+  RecordFlow(0, 10);
+  ASSERT_THAT(Finish(), IsGrpcOk());
+  const std::string file = Export();
+  options_.limits.max_robot_bytes = 10 * 2 * 128;
+  StartServer();
+  EXPECT_THAT(Import("robots/q/journeys/new", file),
+              GrpcStatusIs(grpc::StatusCode::RESOURCE_EXHAUSTED, HasSubstr("with this journey")));
+}
+
+TEST_F(JourneyServiceTest, ARefusedImportDeletesNothingToMakeRoom) {
+  options_.limits.max_robot_journeys = 1;
+  options_.limits.delete_oldest = true;
+  StartServer();
+  ASSERT_THAT(Create(), IsGrpcOk());
+  RecordFlow(0, 10);
+  ASSERT_THAT(Finish(), IsGrpcOk());
+  const std::string file = Export();
+  for (const std::string& damaged : {file.substr(0, file.size() - 1), std::string()}) {
+    EXPECT_THAT(Import("robots/r/journeys/new", damaged), GrpcStatusIs(kInvalid, HasSubstr("")));
+    EXPECT_EQ(Get().state(), v1::Journey::STATE_FINISHED);
+  }
+  EXPECT_THAT(Import("robots/r/journeys/new", file), IsGrpcOk());
+  v1::ListJourneysResponse page;
+  ASSERT_THAT(List("robots/-", 0, "", &page), IsGrpcOk());
+  ASSERT_EQ(page.journeys_size(), 1);
+  EXPECT_EQ(page.journeys(0).name(), "robots/r/journeys/new");
+}
+
 }  // namespace
 }  // namespace homing::server
