@@ -19,6 +19,9 @@ constexpr double kTurnedRound = 0.05;
 constexpr double kTurnSlowly = 0.5;
 // How fast the offsets correct the heading, 1/m.
 constexpr double kHeadingGain = 0.25;
+// Turn between two observations that the flow still shows, rad. A faster turn moves near objects
+// further than they can be tracked.
+constexpr double kMostTurnPerView = 0.08;
 constexpr double kLeastSpeedMps = 0.15;
 // Greatest speed near home, m/s for each metre left.
 constexpr double kSpeedPerM = 0.5;
@@ -94,6 +97,11 @@ Pilot::Belief Pilot::Carried(const Belief& belief, double from_s, double to_s) c
 void Pilot::Take(const PilotAnswer& answer) {
   if (answer.sequence <= last_sequence_) return;
   arrival_time_s_ = last_drive_s_;
+  if (last_sequence_ >= 0 && answer.time_s > view_time_s_) {
+    view_s_ =
+        (answer.time_s - view_time_s_) / static_cast<double>(answer.sequence - last_sequence_);
+  }
+  view_time_s_ = answer.time_s;
   if (!answer.is_standing) blind_m_ = 0;
   TakeTurn(answer);
   TakePlace(answer);
@@ -242,8 +250,12 @@ PilotCommand Pilot::TurnRound() {
     now_ = known_;
     return {};
   }
-  const double rate = now_.heading < 0 ? options_.most_turn_rate : -options_.most_turn_rate;
+  const double rate = now_.heading < 0 ? MostTurnRate() : -MostTurnRate();
   return {0, std::abs(now_.heading) > kTurnSlowly ? rate : 0.4 * rate};
+}
+
+double Pilot::MostTurnRate() const {
+  return std::min(options_.most_turn_rate, kMostTurnPerView / view_s_);
 }
 
 double Pilot::SpeedFor(double now_s) const {
@@ -258,7 +270,7 @@ PilotCommand Pilot::FollowPath(double speed_mps) const {
   const double wanted = std::clamp(-Ahead() * options_.heading_per_m * now_.offset_m,
                                    -options_.most_heading, options_.most_heading);
   const double rate = options_.turn_gain * (wanted - now_.heading) - drift_;
-  return {Ahead() * speed_mps, std::clamp(rate, -options_.most_turn_rate, options_.most_turn_rate)};
+  return {Ahead() * speed_mps, std::clamp(rate, -MostTurnRate(), MostTurnRate())};
 }
 
 // A search soon after another one sweeps further, to pass the place that stopped the last one.
@@ -294,7 +306,7 @@ PilotCommand Pilot::Search() const {
                                    -options_.most_heading, options_.most_heading);
   const double rate = options_.turn_gain * (wanted - now_.heading);
   const double speed = options_.search_speed * options_.most_speed_mps;
-  return {ahead * speed, std::clamp(rate, -options_.most_turn_rate, options_.most_turn_rate)};
+  return {ahead * speed, std::clamp(rate, -MostTurnRate(), MostTurnRate())};
 }
 
 }  // namespace homing::client

@@ -122,6 +122,8 @@ class Pilot {
   bool SweepsBack() const;
   PilotCommand Search() const;
   double SpeedFor(double now_s) const;
+  // Of the options, but no more than the observations can show.
+  double MostTurnRate() const;
   // +1 driving ahead, -1 in reverse.
   double Ahead() const { return options_.turn_round ? 1 : -1; }
 
@@ -133,6 +135,9 @@ class Pilot {
   Belief now_;
   // Time at which the last answer's observation was made, s.
   double answer_time_s_ = 0;
+  // Time of the last observation, and the time between two, s: five a second until it is known.
+  double view_time_s_ = 0;
+  double view_s_ = 0.2;
   // Time of the last answer that had a turn, s.
   double turn_time_s_ = 0;
   // Time when the robot had turned round, s.
