@@ -151,7 +151,8 @@ class Client:
 
         A broken link is restored. When the program runs again with the same writer, it continues where
         it stopped: the observations that the server has are left out, or, with `live`, new ones
-        follow behind a break. `finish` closes the journey at the end.
+        follow behind a break. Give each drive a name of its own: under that of an unfinished journey,
+        another drive counts as the rest of it. `finish` closes the journey at the end.
         """
         self._call(self._journeys.CreateJourney,
                    convert.create_request(journey, writer, left_camera, right_camera, model))
