@@ -68,29 +68,16 @@ Pilot::Pilot(const PilotOptions& options)
   now_ = known_;
 }
 
-double Pilot::Turned(double from_s, double to_s) const {
-  double turned = 0;
-  for (std::size_t i = 0; i < past_.size(); ++i) {
-    const double begin = std::max(from_s, past_[i].time_s);
-    const double end = std::min(to_s, i + 1 < past_.size() ? past_[i + 1].time_s : to_s);
-    if (end > begin) turned += past_[i].turn_rate * (end - begin);
-  }
-  return turned;
-}
-
 Pilot::Belief Pilot::Carried(const Belief& belief, double from_s, double to_s) const {
   Belief carried = belief;
-  for (std::size_t i = 0; i < past_.size(); ++i) {
-    const double begin = std::max(from_s, past_[i].time_s);
-    const double end = std::min(to_s, i + 1 < past_.size() ? past_[i + 1].time_s : to_s);
-    if (end <= begin) continue;
-    const double driven = past_[i].speed_mps * (end - begin);
-    const double turned = (past_[i].turn_rate + drift_) * (end - begin);
+  past_.Between(from_s, to_s, [&](double speed_mps, double turn_rate, double seconds) {
+    const double driven = speed_mps * seconds;
+    const double turned = (turn_rate + drift_) * seconds;
     carried.heading += 0.5 * turned;
     carried.offset_m += driven * std::sin(carried.heading);
     carried.remaining_m -= Ahead() * driven * std::cos(carried.heading);
     carried.heading += 0.5 * turned;
-  }
+  });
   return carried;
 }
 
@@ -115,13 +102,13 @@ void Pilot::TakeTurn(const PilotAnswer& answer) {
   const double since_s = answer.time_s - answer_time_s_;
   const auto observations = static_cast<double>(answer.sequence - last_sequence_);
   if (last_sequence_ >= 0 && observations > 1) {
-    known_.heading += (Turned(answer_time_s_, answer.time_s) + drift_ * since_s) *
+    known_.heading += (past_.Turned(answer_time_s_, answer.time_s) + drift_ * since_s) *
                       (observations - 1) / observations;
   }
   if (answer.time_s < round_s_) return;
   if (!answer.turn) {
     if (observations == 1 && (!answer.is_standing || blind_m_ > kBlindM)) {
-      known_.heading += Turned(answer_time_s_, answer.time_s) + drift_ * since_s;
+      known_.heading += past_.Turned(answer_time_s_, answer.time_s) + drift_ * since_s;
     }
     return;
   }
@@ -129,7 +116,7 @@ void Pilot::TakeTurn(const PilotAnswer& answer) {
   const double since_turn_s = answer.time_s - turn_time_s_;
   if (last_sequence_ >= 0 && observations == 1 && since_turn_s > 0 && since_turn_s < 1 &&
       state_ == State::kDriving) {
-    const double drift = (*answer.turn - Turned(turn_time_s_, answer.time_s)) / since_turn_s;
+    const double drift = (*answer.turn - past_.Turned(turn_time_s_, answer.time_s)) / since_turn_s;
     drift_ += (1 - std::exp(-since_turn_s / kDriftS)) *
               (std::clamp(drift, -2 * kMostDrift, 2 * kMostDrift) - drift_);
     drift_ = std::clamp(drift_, -kMostDrift, kMostDrift);
@@ -235,8 +222,7 @@ PilotCommand Pilot::Drive(double now_s) {
   const double kept = 1 - options_.usual_slip;
   motion_.speed_mps += share * (kept * command.speed_mps - motion_.speed_mps);
   motion_.turn_rate += share * (kept * command.turn_rate - motion_.turn_rate);
-  past_.push_back({now_s, motion_.speed_mps, motion_.turn_rate});
-  while (past_.front().time_s < now_s - kMemoryS) past_.pop_front();
+  past_.Add(now_s, motion_.speed_mps, motion_.turn_rate, kMemoryS);
   return command;
 }
 

@@ -5,8 +5,9 @@
 #define CLIENT_PILOT_PILOT_H_
 
 #include <cstdint>
-#include <deque>
 #include <optional>
+
+#include "client/pilot/motion_history.h"
 
 namespace homing::client {
 
@@ -99,15 +100,7 @@ class Pilot {
     double heading = 0;
     double remaining_m = 0;
   };
-  // A command from a time on, and the actuators' motion at that time.
-  struct Past {
-    double time_s = 0;
-    double speed_mps = 0;
-    double turn_rate = 0;
-  };
 
-  // Turn and distance between two times, by the commands.
-  double Turned(double from_s, double to_s) const;
   // The belief of time `from_s`, advanced to `to_s`.
   Belief Carried(const Belief& belief, double from_s, double to_s) const;
   void TakeTurn(const PilotAnswer& answer);
@@ -170,7 +163,7 @@ class Pilot {
   double drift_ = 0;
   // The actuators' present motion.
   PilotCommand motion_;
-  std::deque<Past> past_;
+  MotionHistory past_;
 };
 
 }  // namespace homing::client
