@@ -68,17 +68,22 @@ Motion ClassifyMotion(const ObservedFlow& flow, const std::array<Camera, 2>& cam
   if (!flow.makes_step) {
     return Motion::kStanding;
   }
-  std::vector<RotationFit> fits;
+  std::vector<std::size_t> sides;
   for (std::size_t side = 0; side < 2; ++side) {
     const auto& field = flow.fields[side];
-    if (field && field->vectors.size() >= kMinVectors) {
-      fits.push_back(FitRotation(*field, cameras[side]));
-    }
+    if (field && field->vectors.size() >= kMinVectors) sides.push_back(side);
   }
-  if (fits.empty()) {
+  if (sides.empty()) {
     return Motion::kMoving;
   }
-  const bool turning = fits.size() == 2 ? IsTurning(fits[0], fits[1]) : IsTurning(fits[0]);
+  const RotationFit first = FitRotation(*flow.fields[sides[0]], cameras[sides[0]]);
+  // Seldom is a drive's flow explained by a turn: then the other camera need not be asked.
+  if (!IsExplained(first)) {
+    return Motion::kMoving;
+  }
+  const bool turning =
+      sides.size() == 1 ? IsTurning(first)
+                        : IsTurning(first, FitRotation(*flow.fields[sides[1]], cameras[sides[1]]));
   return turning ? Motion::kTurning : Motion::kMoving;
 }
 

@@ -6,8 +6,10 @@
 #include <cstdint>
 #include <cstring>
 #include <limits>
+#include <numeric>
 #include <span>
 
+#include "absl/container/fixed_array.h"
 #include "homing/base/vector_clones.h"
 
 namespace homing {
@@ -132,28 +134,56 @@ void CodesOf(const CellSums& sums, const CodeScale& scale, std::uint8_t* __restr
   }
 }
 
+// By vector.
+struct Columns {
+  const float* x = nullptr;
+  const float* y = nullptr;
+  const float* log_flow = nullptr;
+};
+
+// Up to this many vectors need no memory from the heap.
+constexpr std::size_t kUsual = 512;
+using Column = absl::FixedArray<float, kUsual>;
+
+// Midpoints from the middle of the image, in image sizes, and log2 of the lengths.
+HOMING_VECTOR_CLONES
+void FillColumns(const FlowField& field, float* __restrict x, float* __restrict y,
+                 float* __restrict log_flow) {
+  const FlowVector* const from = field.vectors.data();
+  const double middle_x = 0.5 * (field.width - 1), middle_y = 0.5 * (field.height - 1);
+  const double width = field.width, height = field.height;
+  for (std::size_t i = 0; i < field.vectors.size(); ++i) {
+    const double length = from[i].Length();
+    x[i] = static_cast<float>((from[i].MidX() - middle_x) / width);
+    y[i] = static_cast<float>((from[i].MidY() - middle_y) / height);
+    log_flow[i] = Log2(static_cast<float>(length > kLeastFlowPx ? length : kLeastFlowPx));
+  }
+}
+
+bool IsFinite(const FlowVector& v) { return v.Length() <= std::numeric_limits<float>::max(); }
+
 // The midpoints of the vectors in the magnified image, and their lengths there.
 struct MagnifiedView {
   float magnification = 1;
   float mean_log_flow = 0;
 };
 HOMING_VECTOR_CLONES
-void Magnify(const MagnifiedView& view, std::size_t size, float* __restrict x, float* __restrict y,
-             float* __restrict log_flow) {
+void Magnify(const MagnifiedView& view, std::size_t size, const Columns& from, float* __restrict x,
+             float* __restrict y, float* __restrict log_flow) {
   const float scale = 1 - view.magnification;
   for (std::size_t i = 0; i < size; ++i) {
     // Nearness of the object to the path, relative to an object with the mean flow. Three terms of
     // 2^d are exact enough for a factor that is clamped.
-    const float d = log_flow[i] - view.mean_log_flow;
+    const float d = from.log_flow[i] - view.mean_log_flow;
     const float e = d * 0.6931472F * 0.25F;
     const float quarter = 1 + e * (1 + e * (0.5F + e * 0.1666667F));
     const float half = quarter * quarter;
     const float near = half * half;
     const float depth = view.magnification + near * scale;
     const float larger = view.magnification / (depth > kLeastDepth ? depth : kLeastDepth);
-    x[i] = x[i] * larger;
-    y[i] = y[i] * larger;
-    log_flow[i] = log_flow[i] + Log2(larger);
+    x[i] = from.x[i] * larger;
+    y[i] = from.y[i] * larger;
+    log_flow[i] = from.log_flow[i] + Log2(larger);
   }
 }
 
@@ -163,17 +193,18 @@ ProfileMaker::ProfileMaker(const FlowField& field) : ProfileMaker(field, ReadOdo
 
 ProfileMaker::ProfileMaker(const FlowField& field, const OdometerReading& odometer)
     : odometer_(odometer) {
-  const double middle_x = 0.5 * (field.width - 1), middle_y = 0.5 * (field.height - 1);
-  for (auto* of : {&x_, &y_, &log_flow_}) of->reserve(field.vectors.size());
-  float sum = 0;
-  for (const FlowVector& v : field.vectors) {
-    const double length = v.Length();
-    if (!(length <= std::numeric_limits<float>::max())) continue;
-    x_.push_back(static_cast<float>((v.MidX() - middle_x) / field.width));
-    y_.push_back(static_cast<float>((v.MidY() - middle_y) / field.height));
-    log_flow_.push_back(Log2(static_cast<float>(std::max(length, kLeastFlowPx))));
-    sum += log_flow_.back();
+  for (auto* of : {&x_, &y_, &log_flow_}) of->resize(field.vectors.size());
+  FillColumns(field, x_.data(), y_.data(), log_flow_.data());
+  if (!std::ranges::all_of(field.vectors, IsFinite)) {
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < field.vectors.size(); ++i) {
+      if (!IsFinite(field.vectors[i])) continue;
+      for (auto* of : {&x_, &y_, &log_flow_}) (*of)[kept] = (*of)[i];
+      ++kept;
+    }
+    for (auto* of : {&x_, &y_, &log_flow_}) of->resize(kept);
   }
+  const float sum = std::accumulate(log_flow_.begin(), log_flow_.end(), 0.0F);
   mean_log_flow_ = x_.empty() ? 0 : sum / static_cast<float>(x_.size());
 }
 
@@ -190,9 +221,9 @@ FlowProfile ProfileMaker::Make(double magnification, double shift) const {
   if (magnification == 1) {
     add(x_, y_, log_flow_);
   } else {
-    std::vector<float> x = x_, y = y_, log_flow = log_flow_;
-    Magnify({static_cast<float>(magnification), mean_log_flow_}, x.size(), x.data(), y.data(),
-            log_flow.data());
+    Column x(x_.size()), y(x_.size()), log_flow(x_.size());
+    Magnify({static_cast<float>(magnification), mean_log_flow_}, x.size(),
+            {x_.data(), y_.data(), log_flow_.data()}, x.data(), y.data(), log_flow.data());
     add(x, y, log_flow);
   }
   FlowProfile profile;

@@ -35,6 +35,14 @@ Matcher& MatcherOfThread() {
   return matcher;
 }
 
+// The next observation's matches are probably at least this part as good as the last ones.
+constexpr double kLikely = 0.9;
+
+// P_T of the last match that there was room for; 0 if there was more room.
+double LeastOf(const std::vector<Match>& matches, const MatchOptions& options) {
+  return std::ssize(matches) < options.max_matches ? 0 : matches.back().similarity.p_t;
+}
+
 }  // namespace
 
 absl::Status Validate(const LocalizerOptions& options) {
@@ -92,7 +100,9 @@ absl::StatusOr<Localization> Localizer::Localize(const Observation& observation,
   const SeenStep seen = SeeLandmarks(flow, options_.cameras, options_.travel, options_.landmark);
   result.motion = seen.motion;
   // III, equations (13) to (15), over all stored landmarks.
-  result.matches = MatcherOfThread().Find(journeys, seen.landmarks, options_.match);
+  result.matches =
+      MatcherOfThread().Find(journeys, seen.landmarks, options_.match, nullptr, likely_match_);
+  likely_match_ = kLikely * LeastOf(result.matches, options_.match);
   // V, future work: the robot's place by the sequence of its views.
   const ObservedFlow straight = FollowPath(journeys, seen.flow, seen.motion);
   const SeenProfiles profiles = MakeRouteProfiles(straight, seen.motion);

@@ -88,6 +88,8 @@ class Localizer {
   ObservationFlow flow_;
   PositionFilter filter_;
   PathPoseFilter path_;
+  // P_T that as many landmarks as are reported probably reach at the next observation.
+  double likely_match_ = 0;
   // Sum of the reported turns, rad.
   double reported_heading_ = 0;
   // The answer to the last step.

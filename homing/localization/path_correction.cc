@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 #include <vector>
 
 #include "homing/landmark/flow_profile.h"
@@ -39,8 +40,10 @@ struct PathPoseFilter::Tried {
   static constexpr int kCount = 2 * kTries + 1;
   std::array<double, kCount> offsets{};
   std::array<double, kCount> headings{};
-  // By heading and offset: minus the log prior, and the least distance over the steps.
+  // By heading and offset: minus the log prior, and the distances of both sides to each step.
   std::array<std::array<double, kCount>, kCount> surprises{};
+  std::array<std::array<std::array<double, 2 * kSteps + 1>, kCount>, kCount> sums{};
+  // The least of them.
   std::array<std::array<double, kCount>, kCount> distances{};
 };
 
@@ -53,8 +56,18 @@ void PathPoseFilter::Correct(const JourneyMap& map, std::int64_t step, const Obs
   Tried tried = PosesToTry();
   const std::int64_t first = std::max<std::int64_t>(0, step - kSteps);
   const std::int64_t end = std::min(map.step_count(), step + kSteps + 1);
+  for (const Side camera : {Side::kLeft, Side::kRight}) {
+    const auto stored =
+        map.profiles(RouteSide(camera, travel_))
+            .subspan(static_cast<std::size_t>(first), static_cast<std::size_t>(end - first));
+    Compare(stored, *flow.fields[At(camera)], camera, tried);
+  }
   for (std::size_t h = 0; h < tried.headings.size(); ++h) {
-    CompareAtHeading(map, first, end, flow, h, tried);
+    for (std::size_t o = 0; o < tried.offsets.size(); ++o) {
+      const auto of_steps =
+          std::span(tried.sums[h][o]).first(static_cast<std::size_t>(end - first));
+      tried.distances[h][o] = *std::ranges::min_element(of_steps);
+    }
   }
   Fit(tried);
 }
@@ -85,30 +98,31 @@ PathPoseFilter::Tried PathPoseFilter::PosesToTry() const {
   return tried;
 }
 
-void PathPoseFilter::CompareAtHeading(const JourneyMap& map, std::int64_t first, std::int64_t end,
-                                      const ObservedFlow& flow, std::size_t heading,
-                                      Tried& tried) const {
-  const auto steps = static_cast<std::size_t>(end - first);
-  std::vector<std::uint16_t> distances(steps);
-  std::array<std::vector<double>, Tried::kCount> sums;
-  for (auto& sum : sums) sum.assign(steps, 0);
-  for (const Side camera : {Side::kLeft, Side::kRight}) {
-    const auto stored =
-        map.profiles(RouteSide(camera, travel_)).subspan(static_cast<std::size_t>(first), steps);
-    const ProfileMaker seen(
-        Turned(*flow.fields[At(camera)], At(camera), tried.headings[heading] - turned_),
-        OdometerReading{});
+// All poses at once: each stored profile is read once.
+void PathPoseFilter::Compare(std::span<const FlowProfile> stored, const FlowField& field,
+                             Side camera, Tried& tried) const {
+  constexpr std::size_t kPoses = std::size_t{Tried::kCount} * Tried::kCount;
+  std::array<CellMask, Tried::kCount> covered;
+  std::array<FlowProfile, kPoses> profiles;
+  std::vector<std::uint16_t> distances(kPoses * stored.size());
+  std::vector<ProfileView> views;
+  views.reserve(kPoses);
+  for (const double heading : tried.headings) {
+    const ProfileMaker seen(Turned(field, At(camera), heading - turned_), OdometerReading{});
     for (std::size_t o = 0; o < tried.offsets.size(); ++o) {
       const double nearer = camera == Side::kLeft ? tried.offsets[o] : -tried.offsets[o];
-      const FlowProfile profile = seen.Make(1 - nearer);
-      const CellMask covered = CoveredCells(1 - nearer);
-      ProfileDistances(profile, stored, covered, distances);
-      const double share = ShareOf(covered);
-      for (std::size_t i = 0; i < steps; ++i) sums[o][i] += distances[i] / share;
+      if (views.size() == o) covered[o] = CoveredCells(1 - nearer);
+      FlowProfile& profile = profiles[views.size()];
+      profile = seen.Make(1 - nearer);
+      views.push_back({profile, covered[o],
+                       std::span(distances).subspan(views.size() * stored.size(), stored.size())});
     }
   }
-  for (std::size_t o = 0; o < tried.offsets.size(); ++o) {
-    tried.distances[heading][o] = *std::ranges::min_element(sums[o]);
+  ProfileDistances(views, stored);
+  for (std::size_t pose = 0; pose < kPoses; ++pose) {
+    const double share = ShareOf(views[pose].covered);
+    auto& sums = tried.sums[pose / Tried::kCount][pose % Tried::kCount];
+    for (std::size_t i = 0; i < stored.size(); ++i) sums[i] += views[pose].distances[i] / share;
   }
 }
 

@@ -162,11 +162,12 @@ FlowField PathPoseFilter::Turned(const FlowField& field, std::size_t camera, dou
 }
 
 ObservedFlow PathPoseFilter::Straighten(const ObservedFlow& flow) const {
-  ObservedFlow result = flow;
+  ObservedFlow result;
+  result.makes_step = flow.makes_step;
   for (std::size_t camera = 0; camera < 2; ++camera) {
-    if (result.fields[camera]) {
+    if (flow.fields[camera]) {
       // The heading is that of the end of the turn.
-      result.fields[camera] = Turned(*result.fields[camera], camera, pose_.heading - turned_);
+      result.fields[camera] = Turned(*flow.fields[camera], camera, pose_.heading - turned_);
     }
   }
   return result;

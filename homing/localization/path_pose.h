@@ -7,6 +7,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
 
 #include "homing/flow/camera.h"
 #include "homing/flow/observation.h"
@@ -92,9 +93,9 @@ class PathPoseFilter {
   // Poses around the believed one, and how well the images fit each.
   struct Tried;
   Tried PosesToTry() const;
-  // Fills in the distances of the poses of this heading to the steps from `first` until `end`.
-  void CompareAtHeading(const JourneyMap& map, std::int64_t first, std::int64_t end,
-                        const ObservedFlow& flow, std::size_t heading, Tried& tried) const;
+  // Adds one camera's distances of all poses to the stored profiles.
+  void Compare(std::span<const FlowProfile> stored, const FlowField& field, Side camera,
+               Tried& tried) const;
   // The posterior's moments over the tried poses.
   void Fit(const Tried& tried);
 

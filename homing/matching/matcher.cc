@@ -26,8 +26,6 @@ constexpr float kProductRounding = 1e-6F;
 // Candidates kept before they are computed: 20 MB. A query with a low threshold may have far more
 // pairs than there are stored fingerprints.
 constexpr std::size_t kMostCandidates = std::size_t{1} << 19;
-// In most queries some landmarks of a journey reach this P_T.
-constexpr double kMuchAlike = 0.5;
 
 MeanAndCount Of(const SeenLandmark& seen) {
   return {double{seen.x}, double{seen.y}, static_cast<double>(seen.count)};
@@ -200,14 +198,16 @@ void Matcher::ScanAll(std::span<const JourneyRef> journeys, const SeenSides& see
 }
 
 std::vector<Match> Matcher::Find(std::span<const JourneyRef> journeys, const SeenSides& seen,
-                                 const MatchOptions& options, const Cancellation* cancellation) {
+                                 const MatchOptions& options, const Cancellation* cancellation,
+                                 double likely) {
   cancellation_ = cancellation;
-  // Scan with a high threshold first; scan fully only if that gives too few matches.
-  const double first = std::max(options.threshold, kMuchAlike);
-  ScanAll(journeys, seen, first);
-  float of_best = LeastOfBest(options.max_matches);
-  if (double{of_best} < first && first > options.threshold) {
-    ScanAll(journeys, seen, options.threshold);
+  // Scan with a high threshold first; with a lower one only if that gives too few matches.
+  float of_best = 0;
+  for (double tried = 2; const double next : {likely, kMuchAlike, options.threshold}) {
+    const double threshold = std::max(options.threshold, next);
+    if (double{of_best} >= tried || threshold >= tried) continue;
+    tried = threshold;
+    ScanAll(journeys, seen, threshold);
     of_best = LeastOfBest(options.max_matches);
   }
   Compute(journeys, options.threshold, of_best);

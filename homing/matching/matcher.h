@@ -44,10 +44,12 @@ class Matcher {
  public:
   // Distinct landmarks, each with its best step for all landmarks seen on its side; best P_T first,
   // ties by journey name, step, side, landmark. Each journey uses its own deviation model. A P_T of
-  // 0 is no match. Once `cancellation` is cancelled, the result is incomplete. REQUIRES:
-  // Validate(options).ok().
+  // 0 is no match. Once `cancellation` is cancelled, the result is incomplete. `likely`: a P_T that
+  // max_matches landmarks probably reach. It changes the time that this takes, not the result.
+  // REQUIRES: Validate(options).ok().
   std::vector<Match> Find(std::span<const JourneyRef> journeys, const SeenSides& seen,
-                          const MatchOptions& options, const Cancellation* cancellation = nullptr);
+                          const MatchOptions& options, const Cancellation* cancellation = nullptr,
+                          double likely = kMuchAlike);
 
   // The best of one journey's steps from `first` to `last`, if any reaches the threshold.
   // REQUIRES: both are steps of the map.
@@ -55,6 +57,8 @@ class Matcher {
                                       std::int64_t last, const SeenSides& seen, double threshold);
 
  private:
+  // In most queries some landmarks of a journey reach this P_T.
+  static constexpr double kMuchAlike = 0.5;
   // Stored fingerprints tested at a time: their flags fit into the cache.
   static constexpr std::size_t kTile = 256;
 

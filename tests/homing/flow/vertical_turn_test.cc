@@ -2,6 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <random>
+
 namespace homing {
 namespace {
 
@@ -36,6 +43,48 @@ std::array<Camera, 2> Calibrated() {
   camera.height = 240;
   camera.intrinsics = Intrinsics{kFocal, kFocal, 159.5, 119.5};
   return {camera, camera};
+}
+
+// The plain reference: one vector after the other.
+VerticalTurn PlainTurn(const FlowField& field) {
+  Eigen::Vector3d fit = Eigen::Vector3d::Zero();
+  double noise = 1 / kFocal, variance = 0;
+  for (int pass = 0; pass < 3; ++pass) {
+    Eigen::Matrix3d normal = 1e-9 * Eigen::Matrix3d::Identity();
+    Eigen::Vector3d right = Eigen::Vector3d::Zero();
+    double squares = 0, used = 0;
+    for (const FlowVector& v : field.vectors) {
+      const double x = (v.MidX() - 159.5) / kFocal, y = (v.MidY() - 119.5) / kFocal;
+      const Eigen::Vector3d row(x * y, 1 + y * y, -x);
+      const double flow = v.FlowY() / kFocal;
+      const double error = flow - row.dot(fit);
+      if (!(std::abs(error) < 3 * noise)) continue;
+      normal += row * row.transpose();
+      right += row * flow;
+      squares += error * error;
+      used += 1;
+    }
+    fit = normal.ldlt().solve(right);
+    if (pass > 0) noise = std::max(0.1 / kFocal, std::sqrt(squares / used));
+    variance = noise * noise * normal.inverse()(0, 0);
+  }
+  return {fit[0], variance};
+}
+
+TEST(VerticalTurnTest, IsWhatThePlainReferenceGives) {
+  std::mt19937_64 engine(11);
+  std::normal_distribution<float> noise(0, 0.3F);
+  for (std::size_t size = 60; size < 120; ++size) {
+    FlowField field = *TurningFlow(0.02, 5).fields[0];
+    field.vectors.resize(size);
+    for (FlowVector& v : field.vectors) v.end_y += noise(engine);
+    // Some that no turn explains.
+    for (std::size_t i = 0; i < size; i += 9) field.vectors[i].end_y += 30;
+    const VerticalTurn expected = PlainTurn(field);
+    const VerticalTurn read = ReadVerticalTurn(field, Calibrated()[0]);
+    EXPECT_NEAR(read.turn, expected.turn, 1e-9) << size;
+    EXPECT_NEAR(read.variance, expected.variance, 1e-9) << size;
+  }
 }
 
 TEST(VerticalTurnTest, IsPositiveToTheLeft) {

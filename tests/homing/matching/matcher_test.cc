@@ -129,6 +129,24 @@ TEST(MatcherTest, AgreesWithAScanOfEverything) {
   EXPECT_GT(found, 1000u);
 }
 
+TEST(MatcherTest, TheLikelySimilarityDoesNotChangeTheResult) {
+  const std::string name = "robots/a/journeys/1";
+  Matcher matcher;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    std::mt19937_64 engine(seed);
+    const JourneyMap map = RandomMap(engine, 2.24);
+    const JourneyRef journey{&name, &map};
+    const SeenSides seen = RandomSeen(engine);
+    for (const MatchOptions options : {MatchOptions{5, 0}, MatchOptions{10, 0.2}}) {
+      const auto expected = NaiveMatches({&journey, 1}, seen, options);
+      for (const double likely : {0.0, 0.1, 0.6, 0.9, 1.0}) {
+        SCOPED_TRACE(likely);
+        ExpectSame(matcher.Find({&journey, 1}, seen, options, nullptr, likely), expected);
+      }
+    }
+  }
+}
+
 // More pairs than are kept at a time.
 TEST(MatcherTest, AgreesWithAScanOfEverythingForManyPairs) {
   const std::string name = "robots/a/journeys/1";
