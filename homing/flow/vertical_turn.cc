@@ -89,7 +89,8 @@ void AddRows(const Rows& rows, const double* fit, double most, double* sums) {
     std::memcpy(&c, &rows.c[i], sizeof(c));
     std::memcpy(&v, &rows.v[i], sizeof(v));
     const Four miss = v - (a * turn + b * tilt + c * roll);
-    const Four counts = (miss < most) & (-miss < most) ? Four{1, 1, 1, 1} : Four{};
+    const auto within = (miss < most) & (-miss < most);
+    const Four counts = within ? Four{1, 1, 1, 1} : Four{};
     const Four counted_a = a * counts, counted_b = b * counts, counted_c = c * counts;
     lanes[kRowAA] += counted_a * a;
     lanes[kRowAB] += counted_a * b;
