@@ -72,11 +72,11 @@ class __attribute__((visibility("hidden"))) Localizer::State {
   }
 
   absl::Status Take(const v1::LocalizeResponse& answer) {
-    absl::Status dropped = buffer_->Acknowledge(answer.sequence() + 1, answer.sequence() + 1);
+    buffer_->Acknowledge(answer.sequence() + 1, answer.sequence() + 1);
     const MutexLock lock(mutex_);
     last_ = FromMessage(answer);
     changed_.NotifyAll();
-    return dropped;
+    return absl::OkStatus();
   }
 
   const client::Connection connection_;

@@ -67,11 +67,19 @@ absl::StatusOr<std::int64_t> ObservationBuffer::Add(v1::Observation observation)
         absl::StrCat("the buffer is full: ", pending_count(), " observations wait for the server"));
   }
   dropped_ = false;
-  memory_bytes_ += SizeOf(stored);
+  const std::int64_t size = SizeOf(stored);
+  memory_bytes_ += size;
   memory_.push_back(std::move(stored));
   ++end_;
   if (file_ && pending_count() > options_.memory_observations) {
-    HOMING_RETURN_IF_ERROR(WriteToFile());
+    if (absl::Status status = WriteToFile(); !status.ok()) {
+      // What was refused must not be recorded: the caller may add it again.
+      memory_.pop_back();
+      memory_bytes_ -= size;
+      --end_;
+      dropped_ = true;
+      return status;
+    }
   }
   changed_.NotifyAll();
   return end_ - 1;
@@ -87,9 +95,9 @@ absl::Status ObservationBuffer::WriteToFile() {
   return absl::OkStatus();
 }
 
-absl::Status ObservationBuffer::Acknowledge(std::int64_t durable, std::int64_t reference) {
+void ObservationBuffer::Acknowledge(std::int64_t durable, std::int64_t reference) {
   const MutexLock lock(mutex_);
-  if (durable <= durable_) return absl::OkStatus();
+  if (durable <= durable_) return;
   durable_ = durable;
   std::int64_t from_memory = 0;
   std::erase_if(memory_, [&](const StoredObservation& observation) {
@@ -99,10 +107,10 @@ absl::Status ObservationBuffer::Acknowledge(std::int64_t durable, std::int64_t r
   });
   memory_bytes_ -= from_memory;
   // While all observations are in memory, the file has nothing to drop.
-  if (!file_ || file_bytes_ == 0) return absl::OkStatus();
-  HOMING_ASSIGN_OR_RETURN(const std::int64_t dropped, file_->DropBefore(durable, reference));
-  file_bytes_ -= dropped;
-  return absl::OkStatus();
+  if (!file_ || file_bytes_ == 0) return;
+  // On a full disk they stay until a later call: a new process passes over what the server has.
+  const auto dropped = file_->DropBefore(durable, reference);
+  if (dropped.ok()) file_bytes_ -= *dropped;
 }
 
 void ObservationBuffer::Close() {

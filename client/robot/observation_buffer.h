@@ -30,10 +30,11 @@ class ObservationBuffer : public client::ObservationStream {
   // Writes the observations in memory to the file; the file is empty if nothing waits.
   ~ObservationBuffer() override;
 
-  // Numbers the observation. RESOURCE_EXHAUSTED: full. Returns its number.
+  // Numbers the observation. RESOURCE_EXHAUSTED: full; also errors of the file. One that is refused
+  // is not kept. Returns its number.
   absl::StatusOr<std::int64_t> Add(v1::Observation observation);
   // The server has all before `durable`, and may ask for `reference` again.
-  absl::Status Acknowledge(std::int64_t durable, std::int64_t reference);
+  void Acknowledge(std::int64_t durable, std::int64_t reference);
   // Nothing is added any more: Next returns std::nullopt behind the last one.
   void Close();
   // Next returns std::nullopt at once.

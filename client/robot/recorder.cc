@@ -133,7 +133,7 @@ class __attribute__((visibility("hidden"))) Recorder::State {
     // name it.
     const std::int64_t reference =
         answer.has_resend_from() ? answer.resend_from() : answer.next_sequence() - 1;
-    HOMING_RETURN_IF_ERROR(buffer_->Acknowledge(answer.next_sequence(), reference));
+    buffer_->Acknowledge(answer.next_sequence(), reference);
     if (options_.on_recorded) options_.on_recorded(FromMessage(answer));
     return absl::OkStatus();
   }

@@ -90,10 +90,15 @@ class Echo final : public StreamServer {
     server::ServerOptions options;
     options.tls_cert = tls.cert;
     options.tls_key = tls.key;
-    const auto credentials = server::MakeServerCredentials(options, core_.access);
-    if (!credentials.ok()) return false;
+    if (!tls.cert.empty()) {
+      auto opened = server::TlsFiles::Open(tls.cert, tls.key, "");
+      if (!opened.ok()) return false;
+      tls_files_ = *std::move(opened);
+    }
     grpc::ServerBuilder builder;
-    builder.AddListeningPort("127.0.0.1:0", *credentials, &port_);
+    builder.AddListeningPort("127.0.0.1:0",
+                             server::MakeServerCredentials(options, tls_files_.get(), core_.access),
+                             &port_);
     builder.RegisterService(&service_);
     server_ = builder.BuildAndStart();
     return server_ != nullptr;
@@ -103,6 +108,8 @@ class Echo final : public StreamServer {
  private:
   server::ServiceCore core_;
   EchoService service_;
+  // Null: plain text.
+  std::unique_ptr<server::TlsFiles> tls_files_;
   int port_ = 0;
   std::unique_ptr<grpc::Server> server_;
 };

@@ -1,7 +1,9 @@
 #include "client/robot/observation_buffer.h"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
+#include <csignal>
 #include <thread>
 #include <vector>
 
@@ -62,7 +64,7 @@ TEST_F(ObservationBufferTest, GivesThemInOrderFromDiskAndMemory) {
   Expect(0, 10, 0);
   EXPECT_TRUE(buffer_->Seek(4));
   Expect(4, 6, 4);
-  EXPECT_THAT(buffer_->Acknowledge(8, 5), IsOk());
+  buffer_->Acknowledge(8, 5);
   EXPECT_EQ(buffer_->pending(), 2);
   EXPECT_FALSE(buffer_->Seek(6));
   EXPECT_TRUE(buffer_->Seek(5));
@@ -93,7 +95,7 @@ TEST_F(ObservationBufferTest, NewOnesGetTheNumbersThatTheServerExpects) {
     Expect(12, 15, 20);
     EXPECT_EQ(buffer_->pending(), 3);
     EXPECT_EQ(*buffer_->Add(Seen(23)), 15);
-    EXPECT_THAT(buffer_->Acknowledge(16, 16), IsOk());
+    buffer_->Acknowledge(16, 16);
   }
 }
 
@@ -102,7 +104,7 @@ TEST_F(ObservationBufferTest, BehindObservationsThatTheServerLostTheOthersFollow
   for (const std::int64_t reference : {7, 4}) {
     Open(/*in_memory=*/0);
     Add(0, 10);
-    EXPECT_THAT(buffer_->Acknowledge(8, reference), IsOk());
+    buffer_->Acknowledge(8, reference);
     Open(/*in_memory=*/0);
     Add(10, 11);
     const std::int64_t first = reference == 7 ? 7 : 8;
@@ -117,14 +119,14 @@ TEST_F(ObservationBufferTest, BehindObservationsThatTheServerLostTheOthersFollow
     EXPECT_TRUE(next.break_before());
     Expect(3, 2 + 11 - first, first + 1);
     EXPECT_EQ(*buffer_->Add(Seen(11)), 2 + 11 - first);
-    EXPECT_THAT(buffer_->Acknowledge(100, 100), IsOk());
+    buffer_->Acknowledge(100, 100);
   }
 }
 
 TEST_F(ObservationBufferTest, AGapIsABreakBesideThatOfTheNewProgram) {
   Open(/*in_memory=*/0);
   Add(0, 10);
-  EXPECT_THAT(buffer_->Acknowledge(8, 8), IsOk());
+  buffer_->Acknowledge(8, 8);
   Open(/*in_memory=*/0);
   Add(10, 12);
   EXPECT_EQ(buffer_->Align(2).value(), 6);
@@ -132,6 +134,51 @@ TEST_F(ObservationBufferTest, AGapIsABreakBesideThatOfTheNewProgram) {
   for (const bool is_break : {true, false, true, false}) {
     EXPECT_EQ(Next().break_before(), is_break);
   }
+}
+
+// Files of this process cannot grow meanwhile.
+class FullDisk {
+ public:
+  FullDisk() {
+    ignored_ = std::signal(SIGXFSZ, SIG_IGN);
+    ::getrlimit(RLIMIT_FSIZE, &before_);
+    const rlimit none = {0, before_.rlim_max};
+    ::setrlimit(RLIMIT_FSIZE, &none);
+  }
+  ~FullDisk() {
+    ::setrlimit(RLIMIT_FSIZE, &before_);
+    std::signal(SIGXFSZ, ignored_);
+  }
+
+ private:
+  rlimit before_{};
+  void (*ignored_)(int) = nullptr;
+};
+
+TEST_F(ObservationBufferTest, OnAFullDiskWhatIsRefusedIsNotKept) {
+  Open(/*in_memory=*/3);
+  Add(0, 3);
+  {
+    const FullDisk full;
+    for (int i = 0; i < 3; ++i) EXPECT_FALSE(buffer_->Add(Seen(3)).ok());
+  }
+  EXPECT_EQ(buffer_->pending(), 3);
+  Add(3, 6);
+  Expect(0, 6, 0);
+}
+
+TEST_F(ObservationBufferTest, OnAFullDiskAcknowledgedOnesStayInTheFile) {
+  Open(/*in_memory=*/1);
+  Add(0, 10);
+  {
+    const FullDisk full;
+    buffer_->Acknowledge(6, 5);
+  }
+  EXPECT_EQ(buffer_->pending(), 4);
+  EXPECT_TRUE(buffer_->Seek(6));
+  Expect(6, 10, 6);
+  buffer_->Acknowledge(7, 6);
+  EXPECT_FALSE(buffer_->Seek(5));
 }
 
 TEST_F(ObservationBufferTest, IsBoundedAndMarksWhereFlowIsMissing) {
@@ -142,7 +189,7 @@ TEST_F(ObservationBufferTest, IsBoundedAndMarksWhereFlowIsMissing) {
   EXPECT_LT(count, 20);
   EXPECT_THAT(buffer_->Add(Seen(0)).status(),
               StatusIs(absl::StatusCode::kResourceExhausted, ::testing::HasSubstr("full")));
-  EXPECT_THAT(buffer_->Acknowledge(count, count - 1), IsOk());
+  buffer_->Acknowledge(count, count - 1);
   Add(count, count + 1);
   EXPECT_TRUE(buffer_->Seek(count));
   EXPECT_TRUE(Next().break_before());
