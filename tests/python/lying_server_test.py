@@ -22,8 +22,8 @@ FRAMES = [np.full((16, 16), number, np.uint8) for number in range(8)]
 COUNT = len(FRAMES)
 
 
-def impatient(requests, seconds):
-    """Ends once nothing has come for so long."""
+def queued(requests):
+    """A queue of them as they arrive; None: the end."""
     come = queue.Queue()
 
     def read():
@@ -35,6 +35,12 @@ def impatient(requests, seconds):
         come.put(None)
 
     threading.Thread(target=read, daemon=True).start()
+    return come
+
+
+def impatient(requests, seconds):
+    """Ends once nothing has come for so long."""
+    come = queued(requests)
     while True:
         try:
             request = come.get(timeout=seconds)
@@ -47,17 +53,7 @@ def impatient(requests, seconds):
 
 def through_a_proxy(requests, context):
     """One that resets the stream if two observations arrive before the first one is computed."""
-    come = queue.Queue()
-
-    def read():
-        try:
-            for request in requests:
-                come.put(request)
-        except grpc.RpcError:
-            pass
-        come.put(None)
-
-    threading.Thread(target=read, daemon=True).start()
+    come = queued(requests)
     while True:
         request = come.get()
         if request is None:
