@@ -13,7 +13,7 @@
 
 namespace homing::server {
 
-// Plain text without `files`, which must outlive the server. With a client CA, the handshake also
+// Plain text without `files`. With a client CA, the handshake also
 // checks with `access`; clients without a certificate are accepted only if tokens are in use.
 std::shared_ptr<grpc::ServerCredentials> MakeServerCredentials(
     const ServerOptions& options, const TlsFiles* files,

@@ -54,12 +54,6 @@ absl::StatusOr<std::unique_ptr<TlsFiles>> TlsFiles::Open(std::string certificate
   return files;
 }
 
-TlsFiles::~TlsFiles() {
-  for (const int copy : copies_) {
-    if (copy >= 0) ::close(copy);
-  }
-}
-
 absl::StatusOr<TlsFiles::Contents> TlsFiles::Read() const {
   Contents read;
   HOMING_ASSIGN_OR_RETURN(read[kCertificate], ReadFlagFile("tls-cert", paths_[kCertificate]));

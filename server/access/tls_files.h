@@ -13,7 +13,9 @@
 namespace homing::server {
 
 // gRPC watches files: it would use half of one that is being written, and abort at an empty one. So
-// it watches copies in memory, which change only to files that were checked. Thread-safe.
+// it watches copies in memory, which change only to files that were checked. The copies stay until
+// the process ends, since gRPC's thread may still read them after its server has ended.
+// Thread-safe.
 class TlsFiles {
  public:
   // PEM files; no `client_ca`: empty. INVALID_ARGUMENT naming the option (tls-cert, tls-key,
@@ -21,7 +23,6 @@ class TlsFiles {
   // The message holds nothing of the key.
   static absl::StatusOr<std::unique_ptr<TlsFiles>> Open(std::string certificate, std::string key,
                                                         std::string client_ca);
-  ~TlsFiles();
 
   // Reads the files again. An error leaves the copies as they are.
   absl::Status Reload();
