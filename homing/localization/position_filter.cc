@@ -200,9 +200,14 @@ std::optional<double> PositionFilter::SharedBy(std::span<const JourneyRef> journ
   const auto half = std::max<std::int64_t>(1, std::lround(kNearSteps * length));
   const auto [journey, window] = FindBest(half);
   moved_ += moved;
+  const RouteScale& route = *profile_likelihood_.routes()[journey];
+  const BelievedPlace place{.journey = journey, .step = window.step, .mass = window.mass};
+  if (jump_.Update(place, moved, {beliefs_[journey].step_count(), route.correlation_steps})) {
+    membership_.DropEvidence();
+  }
   BelievedInstant now = profile_likelihood_.Believed(journey, window.first, window.last);
   now.moved = moved_;
-  return shared_change_.Add(journeys, *profile_likelihood_.routes()[journey], now);
+  return shared_change_.Add(journeys, route, now);
 }
 
 void PositionFilter::AddMembership(double weight, std::optional<double> shared, double fit) {

@@ -13,6 +13,7 @@
 #include "homing/flow/motion.h"
 #include "homing/localization/distance_moved.h"
 #include "homing/localization/flow_gap.h"
+#include "homing/localization/place_jump.h"
 #include "homing/localization/route_belief.h"
 #include "homing/localization/route_membership.h"
 #include "homing/localization/step_likelihood.h"
@@ -119,7 +120,8 @@ class PositionFilter {
   // (0, 1].
   double WeightOfObservation(double moved) const;
   // Evidence of being on the route: the shared change since an earlier instant (SharedChange), and
-  // the fit to the expected place, as MeanFactor gives it.
+  // the fit to the expected place, as MeanFactor gives it. After a jump of the believed place
+  // (PlaceJump) the earlier evidence is dropped: it was that of another place.
   std::optional<double> SharedBy(std::span<const JourneyRef> journeys, double moved);
   void AddMembership(double weight, std::optional<double> shared, double fit);
   // Holds only the steps around the robot one by one if its place is known; else all.
@@ -142,6 +144,7 @@ class PositionFilter {
   DistanceMoved distance_;
   SharedChange shared_change_;
   FlowGap gap_;
+  PlaceJump jump_;
   // The flow of this observation does not show how far the robot moved.
   bool after_gap_ = false;
   // Steps from the first observation on, and those of the last one, as DistanceMoved reports them.

@@ -23,6 +23,8 @@ void RouteMembership::Add(double evidence) {
   log_odds_ = std::clamp(log_odds_ + evidence, kLeastLogOdds, kMostLogOdds);
 }
 
+void RouteMembership::DropEvidence() { log_odds_ = std::min(log_odds_, 0.0); }
+
 void RouteMembership::Leave(double fraction) {
   left_ = std::min(left_ + (1 - left_) * fraction, kMostLeft);
 }

@@ -13,6 +13,8 @@ class RouteMembership {
 
   // `evidence`: logarithm of how much likelier the observation is on the route than off it.
   void Add(double evidence);
+  // Drops the evidence for the route, if there is more for it than against it: the odds are even.
+  void DropEvidence();
   // Call it after a fraction of the mass has passed an end of the route. [0, 1].
   void Leave(double fraction);
   // Call it when the rest of the mass fits the view `ratio` times as well as a random place does.
