@@ -204,6 +204,7 @@ std::optional<double> PositionFilter::SharedBy(std::span<const JourneyRef> journ
   const BelievedPlace place{.journey = journey, .step = window.step, .mass = window.mass};
   if (jump_.Update(place, moved, {beliefs_[journey].step_count(), route.correlation_steps})) {
     membership_.DropEvidence();
+    shared_change_ = {};
   }
   BelievedInstant now = profile_likelihood_.Believed(journey, window.first, window.last);
   now.moved = moved_;

@@ -121,7 +121,7 @@ class PositionFilter {
   double WeightOfObservation(double moved) const;
   // Evidence of being on the route: the shared change since an earlier instant (SharedChange), and
   // the fit to the expected place, as MeanFactor gives it. After a jump of the believed place
-  // (PlaceJump) the earlier evidence is dropped: it was that of another place.
+  // (PlaceJump) the earlier evidence and instants are dropped: they are those of another place.
   std::optional<double> SharedBy(std::span<const JourneyRef> journeys, double moved);
   void AddMembership(double weight, std::optional<double> shared, double fit);
   // Holds only the steps around the robot one by one if its place is known; else all.
