@@ -29,6 +29,16 @@ TEST(RouteMembershipTest, HoweverLongOffTheRouteSomeEvidenceBringsItBack) {
   EXPECT_GT(membership.OnRoute(), 0.5);
 }
 
+TEST(RouteMembershipTest, DroppedEvidenceLeavesEvenOddsAtMost) {
+  RouteMembership membership(0.2);
+  membership.Add(5);
+  membership.DropEvidence();
+  EXPECT_NEAR(membership.OnRoute(), 0.5, 1e-9);
+  membership.Add(-2);
+  membership.DropEvidence();
+  EXPECT_LT(membership.OnRoute(), 0.2);
+}
+
 TEST(RouteMembershipTest, WhatHasLeftIsForgottenWhereTheRestFits) {
   RouteMembership membership(0.2);
   membership.Leave(0.5);
