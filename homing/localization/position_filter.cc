@@ -195,20 +195,29 @@ double PositionFilter::WeightOfObservation(double moved) const {
   return EvidenceWeight(moved, length);
 }
 
-std::optional<double> PositionFilter::SharedBy(std::span<const JourneyRef> journeys, double moved) {
+PositionFilter::Best PositionFilter::FindPlace() const {
   const double length = profile_likelihood_.routes()[0]->correlation_steps;
-  const auto half = std::max<std::int64_t>(1, std::lround(kNearSteps * length));
-  const auto [journey, window] = FindBest(half);
-  moved_ += moved;
-  const RouteScale& route = *profile_likelihood_.routes()[journey];
-  const BelievedPlace place{.journey = journey, .step = window.step, .mass = window.mass};
-  if (jump_.Update(place, moved, {beliefs_[journey].step_count(), route.correlation_steps})) {
+  return FindBest(std::max<std::int64_t>(1, std::lround(kNearSteps * length)));
+}
+
+void PositionFilter::DropEvidenceAfterJump(const Best& place, double moved) {
+  const auto& [journey, window] = place;
+  const MapLength map{
+      .steps = beliefs_[journey].step_count(),
+      .correlation_steps = profile_likelihood_.routes()[journey]->correlation_steps};
+  if (jump_.Update({journey, window.step, window.mass}, moved, map)) {
     membership_.DropEvidence();
     shared_change_ = {};
   }
-  BelievedInstant now = profile_likelihood_.Believed(journey, window.first, window.last);
+}
+
+std::optional<double> PositionFilter::SharedBy(std::span<const JourneyRef> journeys,
+                                               const Best& place, double moved) {
+  moved_ += moved;
+  BelievedInstant now =
+      profile_likelihood_.Believed(place.journey, place.window.first, place.window.last);
   now.moved = moved_;
-  return shared_change_.Add(journeys, route, now);
+  return shared_change_.Add(journeys, *profile_likelihood_.routes()[place.journey], now);
 }
 
 void PositionFilter::AddMembership(double weight, std::optional<double> shared, double fit) {
@@ -228,7 +237,9 @@ void PositionFilter::CorrectByProfiles(std::span<const JourneyRef> journeys,
   const double fit = MeanFactor([this](std::size_t i) { return profile_likelihood_.of(i); });
   membership_.Fit(fit);
   Weigh(profiles, weight, [this](std::size_t i) { return profile_likelihood_.of(i); });
-  AddMembership(weight, SharedBy(journeys, moved), fit);
+  const Best place = FindPlace();
+  DropEvidenceAfterJump(place, moved);
+  AddMembership(weight, SharedBy(journeys, place, moved), fit);
   profile_likelihood_.Learn();
   profile_likelihood_.Release();
   has_offset_ = true;

@@ -116,25 +116,31 @@ class PositionFilter {
   // odometer's likelihoods, and the directions by those of the flow's sign. `weight`: that of the
   // observation.
   void Weigh(const SeenProfiles& profiles, double weight, const Factors& factors);
-  // Weight of an observation after so many steps: the fraction of it that is new (EvidenceWeight).
-  // (0, 1].
-  double WeightOfObservation(double moved) const;
-  // Evidence of being on the route: the shared change since an earlier instant (SharedChange), and
-  // the fit to the expected place, as MeanFactor gives it. After a jump of the believed place
-  // (PlaceJump) the earlier evidence and instants are dropped: they are those of another place.
-  std::optional<double> SharedBy(std::span<const JourneyRef> journeys, double moved);
-  void AddMembership(double weight, std::optional<double> shared, double fit);
-  // Holds only the steps around the robot one by one if its place is known; else all.
-  void FocusIfKnown();
-  void Unfocus();
-  // Makes the mass of all steps 1, where it was `mass`.
-  void Normalise(double mass);
   // The interval of +- `half` steps, over all journeys, that holds the most mass.
   struct Best {
     std::size_t journey = 0;
     StepWindow window;
   };
   Best FindBest(std::int64_t half) const;
+  // The same for the steps within kNearSteps.
+  Best FindPlace() const;
+  // Weight of an observation after so many steps: the fraction of it that is new (EvidenceWeight).
+  // (0, 1].
+  double WeightOfObservation(double moved) const;
+  // After a jump of the believed place (PlaceJump) the evidence of the place before is dropped: the
+  // odds of being on the route, and the instants of the shared change.
+  void DropEvidenceAfterJump(const Best& place, double moved);
+  // The shared change since an earlier instant (SharedChange).
+  std::optional<double> SharedBy(std::span<const JourneyRef> journeys, const Best& place,
+                                 double moved);
+  // Adds the evidence of being on the route: the shared change, and the fit to the expected place,
+  // as MeanFactor gives it.
+  void AddMembership(double weight, std::optional<double> shared, double fit);
+  // Holds only the steps around the robot one by one if its place is known; else all.
+  void FocusIfKnown();
+  void Unfocus();
+  // Makes the mass of all steps 1, where it was `mass`.
+  void Normalise(double mass);
   Position Answer() const;
 
   PositionOptions options_;
