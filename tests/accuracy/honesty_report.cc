@@ -15,10 +15,10 @@ constexpr double kCalibrationError = 0.05;
 constexpr double kMatchShare = 0.60;
 
 constexpr char kHead[] =
-    "Right is within 1.5 tolerances where the truth was found by comparing pictures. The error of "
+    "Right is within 1.5 tolerances where the truth was found by comparing pictures. The error of\n"
     "calibration is that expected over ten bins of equal mass; the perfect one is the mean error "
-    "of as many "
-    "answers that are right just as often as they say.\n\n"
+    "of\n"
+    "as many answers that are right just as often as they say.\n\n"
     "| answers | MATCH | of these right | error | perfect | Brier score "
     "|\n|---|---|---|---|---|---|\n";
 

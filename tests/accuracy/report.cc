@@ -27,9 +27,10 @@ void ReportFleet(Draft& draft) {
   if (fleet.robots == 0) return;
   draft.Write(absl::StrFormat(
       "## A fleet\n\n%d journeys of 500 m in one store, flow projected from corners with noise "
-      "and "
+      "and\n"
       "clutter; each robot comes home along its own without naming it, 25 %% faster and 0.5 m "
-      "aside. After 15 m, journey right and step within 1 m: %d of %d; %d of these as MATCH.\n\n",
+      "aside.\n"
+      "After 15 m, journey right and step within 1 m: %d of %d; %d of these as MATCH.\n\n",
       fleet.robots, fleet.right, fleet.robots, fleet.sure));
   draft.AtLeast("fleet: journey and step right after 15 m", fleet.share(), 0.95);
 }

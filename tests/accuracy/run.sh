@@ -95,6 +95,12 @@ if [ -s "$work/results.md" ]; then
     echo "Simulated: $seeds worlds a scene."
     echo
     cat "$work/results.md" "$work/more.md"
+    echo
+    echo "## Bounds that are not met"
+    echo
+    echo '```'
+    grep ' short$' "$work/bounds" || echo none
+    echo '```'
   } >"$report"
 fi
 cat "$work/bounds"
