@@ -25,6 +25,12 @@ absl::Status CheckListenAddress(const std::string& field, const std::string& add
   return ParseHostPort(field, address, 0).status();
 }
 
+// A robot drops what a server has acknowledged.
+absl::Status CheckIsKept(const std::string& database) {
+  if (database != "sqlite::memory:") return absl::OkStatus();
+  return TextMustBe("database", database, "a file; what is in memory ends with the server");
+}
+
 // PostgreSQL limits its size by its own means; the index would not see other servers' journeys.
 absl::Status CheckForPostgres(const ServerOptions& options) {
   if (!storage::IsPostgresUrl(options.database)) return absl::OkStatus();
@@ -70,6 +76,7 @@ absl::Status Validate(const ServerOptions& options) {
   if (options.log_format != "text" && options.log_format != "json") {
     return TextMustBe("log-format", options.log_format, "text or json");
   }
+  HOMING_RETURN_IF_ERROR(CheckIsKept(options.database));
   return CheckForPostgres(options);
 }
 

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <chrono>
+#include <filesystem>
 #include <memory>
 
 #include "absl/strings/match.h"
@@ -27,8 +28,10 @@ class Server {
  public:
   Server() {
     server::ServerOptions options;
-    options.listen = "unix:/dev/shm/homing_fuzz_" + std::to_string(::getpid()) + ".sock";
-    options.database = "sqlite::memory:";
+    std::filesystem::remove_all(folder_);
+    std::filesystem::create_directory(folder_);
+    options.listen = "unix:" + folder_ + "/server.sock";
+    options.database = "sqlite:" + folder_ + "/homing.db";
     options.max_pixels = 1 << 18;
     options.workers = 1;
     auto server = server::HomingServer::Start(options);
@@ -38,6 +41,13 @@ class Server {
     Record("a");
     Record("b");
   }
+
+  ~Server() {
+    server_.reset();
+    std::filesystem::remove_all(folder_);
+  }
+  Server(const Server&) = delete;
+  Server& operator=(const Server&) = delete;
 
   const std::shared_ptr<grpc::Channel>& channel() const { return channel_; }
 
@@ -68,6 +78,7 @@ class Server {
     Require(stream->Finish().ok());
   }
 
+  const std::string folder_ = "/dev/shm/homing_fuzz_" + std::to_string(::getpid());
   std::unique_ptr<server::HomingServer> server_;
   std::shared_ptr<grpc::Channel> channel_;
 };

@@ -176,6 +176,13 @@ TEST_F(ServerOptionsTest, AddressesHaveAValidPort) {
   }
 }
 
+TEST_F(ServerOptionsTest, WhatIsAcknowledgedIsKeptInAFile) {
+  ServerOptions options;
+  options.database = "sqlite::memory:";
+  EXPECT_THAT(Validate(options), StatusIs(absl::StatusCode::kInvalidArgument,
+                                          HasSubstr("must be a file; what is in memory ends")));
+}
+
 TEST_F(ServerOptionsTest, ItsOutputIsAFileWithTheSameOptions) {
   ServerOptions options;
   options.listen = "127.0.0.1:9";
