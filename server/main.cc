@@ -96,12 +96,7 @@ int Serve(const homing::server::ServerOptions& options) {
   return 0;
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-  homing::SkipLockChecks();
-  spdlog::set_default_logger(spdlog::stderr_color_mt("homing-server"));
-  const ServerCommand command = homing::server::ParseCommandLine(argc, argv);
+int Run(const ServerCommand& command) {
   switch (command.action) {
     case ServerCommand::Action::kExit:
       return command.exit_code;
@@ -126,4 +121,16 @@ int main(int argc, char** argv) {
       return Serve(command.options);
   }
   return 2;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  homing::SkipLockChecks();
+  spdlog::set_default_logger(spdlog::stderr_color_mt("homing-server"));
+  const ServerCommand command = homing::server::ParseCommandLine(argc, argv);
+  const int result = Run(command);
+  // A server lives on where nobody reads its first lines.
+  if (command.action == ServerCommand::Action::kServe || std::cout.flush()) return result;
+  return Report(absl::DataLossError("standard output: not all of it could be written"));
 }

@@ -180,6 +180,16 @@ TEST_F(CliSourceTest, AFullDiskBehindStandardOutputIsAnError) {
   }
 }
 
+TEST_F(CliSourceTest, TheServersProgramReportsItToo) {
+  const std::string program = HOMING_SERVER_PROGRAM;
+  for (const std::string& command : {std::string(" --check-config >/dev/full"),
+                                     " doctor " + Path("homing.db") + " >/dev/full"}) {
+    const Ran ran = Run({"/bin/sh", "-c", program + command});
+    EXPECT_EQ(ran.code, 1) << command;
+    EXPECT_THAT(ran.errors, HasSubstr("standard output: not all of it")) << command;
+  }
+}
+
 TEST_F(CliSourceTest, ExportWritesIntoAPipe) {
   ASSERT_EQ(Record("sim:street,length=2").code, 0);
   ASSERT_EQ(::mkfifo(Path("pipe").c_str(), 0600), 0);
