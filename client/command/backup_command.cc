@@ -1,3 +1,4 @@
+#include <filesystem>
 #include <memory>
 #include <string>
 
@@ -11,7 +12,17 @@
 namespace homing::client {
 namespace {
 
+// SQLite would apply the log of the file before to the copy.
+absl::Status CheckHasNoLog(const std::string& path) {
+  const std::string log = path + "-wal";
+  std::error_code ignored;
+  if (!std::filesystem::exists(log, ignored)) return absl::OkStatus();
+  return absl::FailedPreconditionError(absl::StrCat("'", path, "' is a database in use, '", log,
+                                                    "' belongs to it; name another file"));
+}
+
 absl::Status BackUp(const Session& session, const std::string& path) {
+  HOMING_RETURN_IF_ERROR(CheckHasNoLog(path));
   HOMING_ASSIGN_OR_RETURN(const Connection connection, session.Connect());
   const auto write = [&](std::ostream& file) {
     return BackUpStore(connection, file, session.stop);

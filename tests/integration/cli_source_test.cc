@@ -190,6 +190,14 @@ TEST_F(CliSourceTest, TheServersProgramReportsItToo) {
   }
 }
 
+TEST_F(CliSourceTest, ABackupDoesNotReplaceADatabaseInUse) {
+  ASSERT_EQ(Record("sim:street,length=2").code, 0);
+  const Ran refused = Homing({"backup", Path("homing.db")});
+  EXPECT_EQ(refused.code, 1);
+  EXPECT_THAT(refused.errors, HasSubstr("is a database in use"));
+  EXPECT_EQ(Homing({"journeys", "show", kJourney}).code, 0);
+}
+
 TEST_F(CliSourceTest, ExportWritesIntoAPipe) {
   ASSERT_EQ(Record("sim:street,length=2").code, 0);
   ASSERT_EQ(::mkfifo(Path("pipe").c_str(), 0600), 0);
