@@ -196,6 +196,7 @@ void PositionFilter::CorrectByProfiles(std::span<const JourneyRef> journeys,
   const Best place = FindPlace();
   DropEvidenceAfterJump(place, moved);
   AddMembership(weight, SharedBy(journeys, place, moved), fit);
+  KeepFollowedPlace(place, moved);
   profile_likelihood_.Learn();
   profile_likelihood_.Release();
   has_offset_ = true;

@@ -13,6 +13,7 @@
 #include "homing/flow/motion.h"
 #include "homing/localization/distance_moved.h"
 #include "homing/localization/flow_gap.h"
+#include "homing/localization/followed_place.h"
 #include "homing/localization/place_jump.h"
 #include "homing/localization/route_belief.h"
 #include "homing/localization/route_membership.h"
@@ -136,6 +137,9 @@ class PositionFilter {
   // Adds the evidence of being on the route: the shared change, and the fit to the expected place,
   // as MeanFactor gives it.
   void AddMembership(double weight, std::optional<double> shared, double fit);
+  // While the believed place is followed (FollowedPlace), it stays possible: what has changed along
+  // the route is no evidence that the robot has left it.
+  void KeepFollowedPlace(const Best& place, double moved);
   // Holds only the steps around the robot one by one if its place is known; else all.
   void FocusIfKnown();
   void Unfocus();
@@ -151,6 +155,7 @@ class PositionFilter {
   SharedChange shared_change_;
   FlowGap gap_;
   PlaceJump jump_;
+  FollowedPlace followed_;
   // The flow of this observation does not show how far the robot moved.
   bool after_gap_ = false;
   // Steps from the first observation on, and those of the last one, as DistanceMoved reports them.

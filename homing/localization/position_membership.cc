@@ -54,4 +54,13 @@ void PositionFilter::AddMembership(double weight, std::optional<double> shared, 
   membership_.Add(kMembershipGain * weight * evidence);
 }
 
+void PositionFilter::KeepFollowedPlace(const Best& place, double moved) {
+  const auto& [journey, window] = place;
+  if (followed_.Update({journey, window.step, window.mass}, moved,
+                       profile_likelihood_.routes()[journey]->correlation_steps,
+                       membership_.IsSure())) {
+    membership_.StayPossible();
+  }
+}
+
 }  // namespace homing

@@ -11,6 +11,9 @@ namespace {
 // stretch that has changed.
 constexpr double kLeastLogOdds = -3;
 constexpr double kMostLogOdds = 8;
+constexpr double kSureLogOdds = 4;
+// A probability of 0.55: the place is reported, but it is no MATCH.
+constexpr double kPossibleLogOdds = 0.2;
 // It may come back.
 constexpr double kMostLeft = 0.95;
 
@@ -24,6 +27,10 @@ void RouteMembership::Add(double evidence) {
 }
 
 void RouteMembership::DropEvidence() { log_odds_ = std::min(log_odds_, 0.0); }
+
+void RouteMembership::StayPossible() { log_odds_ = std::max(log_odds_, kPossibleLogOdds); }
+
+bool RouteMembership::IsSure() const { return log_odds_ >= kSureLogOdds; }
 
 void RouteMembership::Leave(double fraction) {
   left_ = std::min(left_ + (1 - left_) * fraction, kMostLeft);

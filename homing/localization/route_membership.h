@@ -15,12 +15,16 @@ class RouteMembership {
   void Add(double evidence);
   // Drops the evidence for the route, if there is more for it than against it: the odds are even.
   void DropEvidence();
+  // Keeps the odds slightly for the route, however much evidence is against it.
+  void StayPossible();
   // Call it after a fraction of the mass has passed an end of the route. [0, 1].
   void Leave(double fraction);
   // Call it when the rest of the mass fits the view `ratio` times as well as a random place does.
   // Positive.
   void Fit(double ratio);
 
+  // The evidence alone makes a probability of 0.98 or more, whatever has left.
+  bool IsSure() const;
   // Probability of being on the route.
   double OnRoute() const;
 

@@ -39,6 +39,29 @@ TEST(RouteMembershipTest, DroppedEvidenceLeavesEvenOddsAtMost) {
   EXPECT_LT(membership.OnRoute(), 0.2);
 }
 
+TEST(RouteMembershipTest, WhatStaysPossibleIsReportedButNoMatch) {
+  RouteMembership membership(0.2);
+  membership.Add(-5);
+  membership.StayPossible();
+  EXPECT_GT(membership.OnRoute(), 0.5);
+  EXPECT_LT(membership.OnRoute(), 0.6);
+  membership.Add(5);
+  const double more = membership.OnRoute();
+  membership.StayPossible();
+  EXPECT_EQ(membership.OnRoute(), more);
+}
+
+TEST(RouteMembershipTest, ItIsSureByTheEvidenceAlone) {
+  RouteMembership membership(0.2);
+  EXPECT_FALSE(membership.IsSure());
+  membership.Add(3);
+  EXPECT_TRUE(membership.IsSure());
+  membership.Leave(0.5);
+  EXPECT_TRUE(membership.IsSure());
+  membership.DropEvidence();
+  EXPECT_FALSE(membership.IsSure());
+}
+
 TEST(RouteMembershipTest, WhatHasLeftIsForgottenWhereTheRestFits) {
   RouteMembership membership(0.2);
   membership.Leave(0.5);
