@@ -35,6 +35,10 @@ constexpr double kCloseGain = 0.03;
 constexpr double kJumpM = 3;
 constexpr double kJumpPerM = 0.1;
 constexpr double kJumpConfirmedM = 4;
+// An answer that is not sure agrees with the pilot if it has this probability and its place is so
+// near to the expected one, m.
+constexpr double kAgreeProbability = 0.5;
+constexpr double kAgreeM = 2;
 // An answer is no better than its tolerance: the pilot accepts its place over this distance, m.
 constexpr double kPlaceM = 2;
 // A heading that is wrong by some angle takes the robot beside the path by the angle times the way.
@@ -133,6 +137,9 @@ void Pilot::TakePlace(const PilotAnswer& answer) {
   const bool is_elsewhere =
       blind_m_ > kBlindM || IsElsewhere(answer, expected.remaining_m - answered_m);
   is_sure_ = is_sure_ && !is_elsewhere;
+  agrees_ = answer.progress_home && blind_m_ <= kBlindM &&
+            answer.probability >= kAgreeProbability &&
+            std::abs(expected.remaining_m - answered_m) < kAgreeM;
   PilotAnswer here = answer;
   if (is_elsewhere) here.path_offset.reset();
   CorrectHeading(here, expected);
@@ -192,10 +199,10 @@ PilotCommand Pilot::Drive(double now_s) {
   blind_m_ += driven;
   if (blind_m_ > kBlindM) patience_left_m_ = std::min(patience_left_m_, kFirstPatienceM);
   if (state_ != State::kTurningRound) {
-    patience_left_m_ = std::clamp(patience_left_m_ + (is_sure_ ? kPatiencePerM : -1) * driven, 0.0,
-                                  options_.patience_m);
+    const double per_m = is_sure_ ? kPatiencePerM : agrees_ ? 0 : -1;
+    patience_left_m_ = std::clamp(patience_left_m_ + per_m * driven, 0.0, options_.patience_m);
   }
-  const bool is_patient = is_sure_ || patience_left_m_ > 0;
+  const bool is_patient = is_sure_ || agrees_ || patience_left_m_ > 0;
   PilotCommand command;
   if (state_ == State::kTurningRound) {
     command = TurnRound();

@@ -26,6 +26,8 @@ struct Condition {
   // Share of the robots that come home: at least, and at most.
   double least_home = 0;
   double most_home = 1;
+  // Robots that are driven even where fewer are asked for.
+  int least_robots = 0;
   // Also the bounds of the cross-track error.
   bool bounds_error = false;
 };

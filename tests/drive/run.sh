@@ -4,7 +4,8 @@
 # projected from the same worlds (true flow, with the noise, losses and clutter of a tracker): an image drive takes 20 s of a
 # core, a projected one 1 s. Those on rendered images with tracked flow are the last rows, and the drives through a real
 # server, one of which is killed and started again on the way.
-# usage: tests/drive/run.sh [--quick]     --quick: 24 robots a row instead of 100, and one image drive of a kind; about 3 minutes
+# usage: tests/drive/run.sh [--quick]     --quick: 24 robots a row instead of 100, but 100 where the share is near its bound;
+# and one image drive of a kind; about 3 minutes
 # HOMING_BUILD names a build with homing-server, homing and homing_drive_rows (default: build/dev, built if need be).
 set -eu
 cd "$(dirname "$0")/../.."

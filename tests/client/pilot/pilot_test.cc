@@ -160,6 +160,44 @@ TEST_F(PilotTest, DrivesOnUnsureForTwiceTheWayOnWhichItWasSure) {
   EXPECT_NEAR(unsure_m[1], 4 + 2 * 4.5, 1.5);
 }
 
+// An answer that is not sure, but right, is better than none: going back would lose the place.
+TEST_F(PilotTest, DrivesOnWhereUnsureAnswersAgreeWithIt) {
+  Pilot pilot = OnItsWay();
+  const double begin_m = pilot.remaining_m();
+  while (pilot.remaining_m() > begin_m - 20) {
+    PilotAnswer answer = Sure(pilot.remaining_m());
+    answer.outcome = PilotAnswer::Outcome::kAmbiguous;
+    answer.probability = 0.6;
+    Step(pilot, answer);
+    ASSERT_EQ(pilot.state(), Pilot::State::kDriving);
+  }
+}
+
+TEST_F(PilotTest, EndsASearchWhereAnUnsureAnswerAgreesWithIt) {
+  Pilot pilot = OnItsWay();
+  while (pilot.state() != Pilot::State::kSearching) Step(pilot, Lost());
+  PilotAnswer answer = Sure(pilot.remaining_m());
+  answer.outcome = PilotAnswer::Outcome::kAmbiguous;
+  answer.probability = 0.6;
+  Step(pilot, answer);
+  EXPECT_EQ(pilot.state(), Pilot::State::kDriving);
+}
+
+TEST_F(PilotTest, SearchesWhereUnsureAnswersNameAnotherPlaceOrHardlyAny) {
+  for (const double probability : {0.3, 0.6}) {
+    Pilot pilot = OnItsWay();
+    for (int i = 0; i < 200 && pilot.state() == Pilot::State::kDriving; ++i) {
+      PilotAnswer answer = Sure(pilot.remaining_m() - (probability > 0.5 ? 20 : 0));
+      answer.outcome = PilotAnswer::Outcome::kAmbiguous;
+      answer.probability = probability;
+      Step(pilot, answer);
+    }
+    EXPECT_EQ(pilot.state(), Pilot::State::kSearching) << probability;
+    sequence_ = 0;
+    now_s_ = 0;
+  }
+}
+
 // A stretch that has changed may be long: to and fro on it alone the robot would stay for ever.
 TEST_F(PilotTest, ASearchGoesFurtherAndFurther) {
   Pilot pilot = OnItsWay();
