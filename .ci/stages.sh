@@ -142,7 +142,7 @@ stage_tidy() {
 }
 
 # Each source that changed lately by itself. All of them take a processor a quarter of an hour: .ci/locks.sh
-stage_locks() { .ci/locks.sh --since HEAD~50; }
+stage_locks() { .ci/locks.sh --since HEAD~25; }
 
 # Kills, power cuts, full and failing disks: few of each. Uses the build of the tests.
 stage_faults() {
@@ -176,6 +176,8 @@ stage_scale() {
 stage_fuzz_build() { cmake --preset fuzz && cmake --build --preset fuzz -j "$jobs"; }
 
 stage_fuzz() { sh tests/fuzz/run.sh 15; }
+
+stage_tsan_build() { cmake --preset tsan -DHOMING_TESTS=ON && cmake --build --preset tsan -j "$jobs"; }
 
 stage_tsan() { HOMING_PRESET=tsan sh tests/run.sh; }
 
