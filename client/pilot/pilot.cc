@@ -35,8 +35,8 @@ constexpr double kCloseGain = 0.03;
 constexpr double kJumpM = 3;
 constexpr double kJumpPerM = 0.1;
 constexpr double kJumpConfirmedM = 4;
-// An answer that is not sure agrees with the pilot if it has this probability and its place is so
-// near to the expected one, m.
+// An answer agrees with the pilot if it has at least this probability and its place is at most this
+// far from the expected one, m.
 constexpr double kAgreeProbability = 0.5;
 constexpr double kAgreeM = 2;
 // An answer is no better than its tolerance: the pilot accepts its place over this distance, m.

@@ -64,9 +64,9 @@ struct PilotOptions {
   // Speeds while unsure and while searching, as fractions of the greatest speed.
   double unsure_speed = 0.5;
   double search_speed = 0.3;
-  // Most metres driven by the commands and the turns while unsure (not counting those where the
-  // answers agree with them), after which the pilot stops and
-  // searches; fewer soon after the start, where the heading is not known as well.
+  // Most metres driven by the commands and the turns while unsure, after which the pilot stops and
+  // searches; fewer soon after the start, where the heading is not known as well. Metres on which
+  // the answers agree with the pilot do not count.
   double patience_m = 25;
   // Time without an answer after which the pilot slows down, and after which it stops, s. It also
   // stops while the answers are older than 10 s.
@@ -141,7 +141,7 @@ class Pilot {
   double arrival_time_s_ = -1;
   double last_drive_s_ = -1;
   bool is_sure_ = false;
-  // The last answer was probably right: its place was the expected one.
+  // The last answer, sure or not, had the place that the pilot expected.
   bool agrees_ = false;
   // While answers are sure of another place: how far ahead of the believed place it was in the
   // first of them, and how much of the way was left then, m.

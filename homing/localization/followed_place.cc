@@ -6,10 +6,10 @@
 namespace homing {
 namespace {
 
-// A place with this mass is followed.
+// Least mass of a followed place.
 constexpr double kFollowed = 0.7;
-// It may move so much further than the robot, or so much less, between two observations.
-// Correlation lengths.
+// Greatest difference between the place's motion and the robot's from one observation to the next,
+// correlation lengths.
 constexpr double kApartLengths = 3;
 
 }  // namespace

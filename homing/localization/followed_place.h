@@ -12,7 +12,7 @@ namespace homing {
 class FollowedPlace {
  public:
   // Processes one observation. `moved`: steps since the one before, either sign. `is_sure`: the
-  // robot is surely on its route. True: it was so when the believed place began to be followed.
+  // robot is surely on its route. True: the place is followed. Following begins when `is_sure`.
   bool Update(const BelievedPlace& place, double moved, double correlation_steps, bool is_sure);
 
  private:

@@ -15,7 +15,7 @@ class RouteMembership {
   void Add(double evidence);
   // Drops the evidence for the route, if there is more for it than against it: the odds are even.
   void DropEvidence();
-  // Keeps the odds slightly for the route, however much evidence is against it.
+  // Raises the odds to slightly above even, if they are lower.
   void StayPossible();
   // Call it after a fraction of the mass has passed an end of the route. [0, 1].
   void Leave(double fraction);
@@ -23,7 +23,7 @@ class RouteMembership {
   // Positive.
   void Fit(double ratio);
 
-  // The evidence alone makes a probability of 0.98 or more, whatever has left.
+  // By the evidence the probability is 0.98 or more. Mass that has left does not count.
   bool IsSure() const;
   // Probability of being on the route.
   double OnRoute() const;

@@ -10,7 +10,15 @@
 namespace homing::client {
 namespace {
 
-using PilotSearchTest = AnsweredPilotTest;
+class PilotSearchTest : public AnsweredPilotTest {
+ protected:
+  static PilotAnswer Unsure(double remaining_m, double probability = 0.6) {
+    PilotAnswer answer = Sure(remaining_m);
+    answer.outcome = PilotAnswer::Outcome::kAmbiguous;
+    answer.probability = probability;
+    return answer;
+  }
+};
 
 TEST_F(PilotSearchTest, IsSlowerWhenUnsureAndSearchesAfterAWhile) {
   Pilot pilot = OnItsWay();
@@ -59,10 +67,7 @@ TEST_F(PilotSearchTest, DrivesOnWhereUnsureAnswersAgreeWithIt) {
   Pilot pilot = OnItsWay();
   const double begin_m = pilot.remaining_m();
   while (pilot.remaining_m() > begin_m - 20) {
-    PilotAnswer answer = Sure(pilot.remaining_m());
-    answer.outcome = PilotAnswer::Outcome::kAmbiguous;
-    answer.probability = 0.6;
-    Step(pilot, answer);
+    Step(pilot, Unsure(pilot.remaining_m()));
     ASSERT_EQ(pilot.state(), Pilot::State::kDriving);
   }
 }
@@ -70,10 +75,7 @@ TEST_F(PilotSearchTest, DrivesOnWhereUnsureAnswersAgreeWithIt) {
 TEST_F(PilotSearchTest, EndsASearchWhereAnUnsureAnswerAgreesWithIt) {
   Pilot pilot = OnItsWay();
   while (pilot.state() != Pilot::State::kSearching) Step(pilot, Lost());
-  PilotAnswer answer = Sure(pilot.remaining_m());
-  answer.outcome = PilotAnswer::Outcome::kAmbiguous;
-  answer.probability = 0.6;
-  Step(pilot, answer);
+  Step(pilot, Unsure(pilot.remaining_m()));
   EXPECT_EQ(pilot.state(), Pilot::State::kDriving);
 }
 
@@ -81,10 +83,8 @@ TEST_F(PilotSearchTest, SearchesWhereUnsureAnswersNameAnotherPlaceOrHardlyAny) {
   for (const double probability : {0.3, 0.6}) {
     Pilot pilot = OnItsWay();
     for (int i = 0; i < 200 && pilot.state() == Pilot::State::kDriving; ++i) {
-      PilotAnswer answer = Sure(pilot.remaining_m() - (probability > 0.5 ? 20 : 0));
-      answer.outcome = PilotAnswer::Outcome::kAmbiguous;
-      answer.probability = probability;
-      Step(pilot, answer);
+      const double ahead_m = probability > 0.5 ? 20 : 0;
+      Step(pilot, Unsure(pilot.remaining_m() - ahead_m, probability));
     }
     EXPECT_EQ(pilot.state(), Pilot::State::kSearching) << probability;
     sequence_ = 0;
